@@ -6,6 +6,7 @@ import math
 import re
 import stat
 from collections.abc import Iterable
+from difflib import get_close_matches
 from pathlib import Path
 
 from gearlube_core.errors import GearLubeError, ParameterError, unread
@@ -59,6 +60,12 @@ def check_option(name: str, value: str, options: Iterable[str]) -> str:
     if value not in allowed:
         raise ParameterError(f"{name} must be one of {', '.join(allowed)}; got {value!r}.")
     return value
+
+
+def is_it(name: object, known: Iterable[str]) -> str:
+    """Return " Is it X?" with the known name that is most like a wrong one, "" if none is."""
+    near = get_close_matches(str(name), list(known), 1)
+    return f" Is it {near[0]}?" if near else ""
 
 
 def check_file(

@@ -146,7 +146,8 @@ class TyreSection(ModelSection):
         if self.has("size") and (self.has("rolling_radius_mm") or self.has("unladen_radius_mm")):
             raise ValueError("size and the radii describe the same tyre; give one of them")
         if problems := or_problem(self.tyre):
-            raise ValueError(problems[0])
+            text = self.has("size")  # which has its own units
+            raise ValueError(problems[0].removeprefix("In SI units: ") if text else problems[0])
         return self
 
     def tyre(self) -> Tyre:

@@ -52,11 +52,12 @@ def read_trace(path: Path) -> dict[str, Any]:
     comments = (*COMMENTS, "c ") if vecto else COMMENTS  # VECTO 2 wrote units after "c "
     table = read_table(path, fewest=2, cure=_CURE, comments=comments)
     if vecto or any(name.startswith("<") for name in table.names):
-        return _of_vecto(table)
+        return _of_vecto(table) | {"speed_unit": "km/h"}
     head = [name.lower() for name in table.names]
     _check_head(path, head)
     columns = {COLUMNS[name][0]: COLUMNS[name][1] * table.column(name) for name in head}
-    return columns | {"lines": np.array(table.lines)}
+    unit = "km/h" if "speed_kmh" in head else "mph" if "speed_mph" in head else "m/s"
+    return columns | {"lines": np.array(table.lines), "speed_unit": unit}
 
 
 def _check_head(path: Path, head: list[str]) -> None:

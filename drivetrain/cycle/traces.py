@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from gearlube_core.arrays import Array
+from gearlube_core.checks import check_option
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.errors import ParameterError
 from gearlube_core.extras import extra_package
@@ -126,6 +127,7 @@ def _wrong(package: str, got: str, limit: str) -> ParameterError:
 NAMED: dict[str, Callable[[], tuple[Array, Array]]] = {"nedc": nedc, "wltc": wltc, "ftp75": ftp75}
 MOST_ROWS = 200_000
 FASTEST = 90.0  # m/s
+PER_M_S = {"m/s": 1.0, "km/h": 3.6, "mph": 1.0 / 0.44704}  # units of speed in files
 _LONGEST_STEP, _SHORTEST_GAP = 5.0, 2.0  # s
 _USUAL_STEPS = 10.0  # that a gap lasts
 HARDEST = 8.0, 12.0  # m/s2: two driven tyres on dry road; four that brake
@@ -157,6 +159,8 @@ class DriveCycle:
         coast.
     lines : ndarray of shape (n,), optional
         Line of each row in its file, for errors. Default: rows are counted from 1.
+    speed_unit : str
+        Unit of the speed in its file for errors, km/h or mph. Default: m/s.
     notes : tuple of str
         What was done to the trace, in sentences. Speeds down to -0.5 km/h and pinion speeds down to
         -15 rpm are noise of a sensor at rest: they become 0, with a note.
@@ -180,9 +184,11 @@ class DriveCycle:
     pinion_speed: Array | None = None
     pinion_torque: Array | None = None
     lines: Array | None = None
+    speed_unit: str = "m/s"
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        check_option("speed_unit", self.speed_unit, PER_M_S)
         measured = self.pinion_speed is not None and self.pinion_torque is not None
         partly = self.pinion_speed is not None or self.pinion_torque is not None
         if measured == (self.speed is not None) or partly != measured:
@@ -276,8 +282,11 @@ class DriveCycle:
                 "pinion_speed", 0.0, MAX_SPEED, "rad/s", "Name the column pinion_speed_rpm?"
             )
             return
-        kmh = "Are these km/h? Then name the column speed_kmh."
-        self._within("speed", 0.0, FASTEST, "m/s", kmh)
+        cure, each = "Are these km/h? Then name the column speed_kmh.", "m/s2"
+        unit, factor = self.speed_unit, PER_M_S[self.speed_unit]
+        if unit != "m/s":
+            cure, each = "Correct the rows, or the unit of the column.", f"{unit} per s"
+        self._within("speed", 0.0, FASTEST, unit, cure)
         if self.grade is not None:
             self._within(
                 "grade", -_STEEPEST, _STEEPEST, "", "5 % is 0.05, or name it grade_percent."
@@ -287,18 +296,20 @@ class DriveCycle:
         if np.any(bad):
             row = int(np.argmax(bad)) + 1
             raise ParameterError(
-                f"The acceleration of {self.name} must be within {-HARDEST[1]:g} to {HARDEST[0]:g} "
-                f"m/s2, the most that tyres can transmit; got {gained[row - 1]:.3g} m/s2 before "
-                f"{self._place(row)}. Smooth the speed if it is noise. {kmh} Times are in seconds."
+                f"The acceleration of {self.name} must be within {-factor * HARDEST[1]:.3g} to "
+                f"{factor * HARDEST[0]:.3g} {each}, the most that tyres can transmit; got "
+                f"{factor * gained[row - 1]:.3g} {each} before {self._place(row)}. Smooth the "
+                f"speed if it is noise. {cure} Times are in seconds."
             )
 
     def _within(self, name: str, low: float, high: float, unit: str, cure: str) -> None:
-        values = getattr(self, name)
+        values, factor = getattr(self, name), PER_M_S.get(unit, 1.0)
+        shown = f" {unit}" if unit else ""
         bad = np.flatnonzero((values < low) | (values > high))
         if bad.size:
             raise ParameterError(
-                f"{name} of {self.name} must be within {low:g} to {high:g} {unit}".rstrip()
-                + f", got {values[bad[0]]:g} in {self._place(bad[0])}. {cure}"
+                f"{name} of {self.name} must be within {factor * low:g} to {factor * high:g}"
+                f"{shown}, got {factor * values[bad[0]]:g}{shown} in {self._place(bad[0])}. {cure}"
             )
 
     @property

@@ -14,7 +14,7 @@ from drivetrain.axle_file.car_sections import Inertia, TyreSection, VehicleSecti
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import RoadLoad
 from drivetrain.train.part_section import BODIES, OF_THE_TRAIN, files_in, read_part
-from gearlube_core.checks import check_within
+from gearlube_core.checks import check_within, is_it
 from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.choice import Driver
 from gearlube_core.dynamics.train.elements.motor import Motor
@@ -222,7 +222,7 @@ class TrainFile(InputFile):
             if not isinstance(kind, str) or kind not in BODIES:
                 wrong.append(
                     f"bodies.{name}.kind must be one of {', '.join(BODIES)}, got "
-                    f"{str(kind)[:_SHOWN]!r}."
+                    f"{str(kind)[:_SHOWN]!r}.{is_it(kind, BODIES)}"
                 )
                 continue
             body, problems = read_part(BODIES[kind], name, given, f"bodies.{name}", of_train)
@@ -243,8 +243,8 @@ class TrainFile(InputFile):
             if not isinstance(kind, str) or kind not in known:
                 wrong.append(
                     f"elements.{name}.kind must be one of {', '.join(known)}, got "
-                    f"{str(kind)[:_SHOWN]!r}. One of your own must be imported first, or be an "
-                    f"entry point of {ELEMENTS.group}."
+                    f"{str(kind)[:_SHOWN]!r}.{is_it(kind, known)} One of your own must be "
+                    f"imported first, or be an entry point of {ELEMENTS.group}."
                 )
                 continue
             element, problems = read_part(known[kind], name, given, f"elements.{name}", of_train)
@@ -272,6 +272,7 @@ class TrainFile(InputFile):
                     known = ", ".join(there) or "none"
                     raise ParameterError(
                         f"{field}.{name} names nothing of the train. There are: {known}."
+                        f"{is_it(name, there)}"
                     )
         if not self.start.speed_rpm:
             raise ParameterError("start.speed_rpm must name a body with its speed, got none.")
@@ -301,10 +302,11 @@ class TrainFile(InputFile):
             return None
         vehicle, tyre = self.vehicle or CarSection(), self.tyre or TyreSection()
         drag = vehicle.drag_area_m2 or (vehicle.frontal_area_m2 and vehicle.drag_coefficient)
+        other = [*{"frontal_area_m2", "drag_coefficient"} - vehicle.model_fields_set]
         given = {
             "vehicle.mass_kg": vehicle.mass_kg,
             "vehicle.rolling_coefficient": vehicle.rolling_coefficient,
-            "vehicle.drag_area_m2": drag,
+            f"vehicle.{other[0] if len(other) == 1 else 'drag_area_m2'}": drag,
             "vehicle.wheel_inertia_kg_m2": vehicle.wheel_inertia_kg_m2,
             "tyre.size": tyre.size or tyre.rolling_radius_mm or tyre.unladen_radius_mm,
         }

@@ -52,8 +52,8 @@ def energy_table(dataset: xr.Dataset, words: Callable[[str], str], caption: str)
         title="Energy lost by source",
         columns=[
             Column("source"),
-            Column("energy", "kJ", 4),
-            Column("energy", "Wh", 4),
+            Column("energy", "kJ"),
+            Column("energy", "Wh"),
             Column("share", "%"),
         ],
         rows=rows,

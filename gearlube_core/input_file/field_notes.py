@@ -193,7 +193,7 @@ def sentence(
         for word, why in unmodelled.items():
             if word in f"{field} {value}".lower():
                 return f"{field} is not a field of this file: {why}."
-        near = " or ".join(likely_fields(field, notes))
+        near = " or ".join(likely_fields(field, _like(error["input"], notes)))
         return f"{field} is not a field of this file" + (f"; is it {near}?" if near else ".")
     cure = _rewritten(kind, error["input"])
     if kind == "model_type" or (kind == "dict_type" and note is None):
@@ -228,6 +228,15 @@ def likely_fields(field: str, names: Iterable[str]) -> list[str]:
     return own or same[:2]
 
 
+def _like(value: object, notes: Mapping[str, FieldNote]) -> list[str]:
+    """Return the names of all sections where the value is one, else those of all fields."""
+    if not isinstance(value, dict):
+        return list(notes)
+    tables = [f"{name}." for name, one in notes.items() if one.kind.startswith("table")]
+    parts = [name.split(".")[:-1] for name in (*notes, *tables)]
+    return list(dict.fromkeys(".".join(one[: i + 1]) for one in parts for i in range(len(one))))
+
+
 def _words(name: str) -> list[str]:
     """Return the words of a field, without its unit."""
     ending = field_unit(name)[1]
@@ -250,10 +259,10 @@ def as_meant(
     would only seem to be wrong.
     """
     changed = deepcopy(dict(data))
-    unknown = [error["loc"] for error in errors if error["type"] == "extra_forbidden"]
-    for place in unknown:
-        *sections, key = (str(part) for part in place)
-        likely = likely_fields(".".join((*sections, key)), notes)
+    unknown = [error for error in errors if error["type"] == "extra_forbidden"]
+    for error in unknown:
+        *sections, key = (str(part) for part in error["loc"])
+        likely = likely_fields(".".join((*sections, key)), _like(error["input"], notes))
         *meant_sections, meant = likely[0].split(".") if likely else [""]
         section: Any = changed
         for part in sections:

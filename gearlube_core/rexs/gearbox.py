@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,6 +17,7 @@ from gearlube_core.rexs.stage import ExchangeNote, Stage
 from gearlube_core.shafts.section import ShaftDisc
 from gearlube_core.units import DEGREE, MILLIMETRE
 
+logger = logging.getLogger(__name__)
 _BEARINGS = (
     "concept_bearing", "rolling_bearing_with_catalog_geometry",
     "rolling_bearing_with_detailed_geometry",
@@ -108,6 +110,12 @@ def read_gearbox(path: str | Path) -> RexsTrain:
     elements = {name: mesh.fields for name, mesh in meshes.items()}
     for one in model.of_kind(*_BEARINGS):
         elements[reading.named(one)] = _bearing(reading, one, shafts)
+    stiff = [one for one in elements.values() if one.get("K_zz_n_per_um")]
+    held = {one[side].partition(".")[0] for one in stiff for side in ("first", "second")}
+    if loose := [one.name for one in shafts.values() if one.name not in held]:
+        words = "%s: no bearing holds %s along the axis, so a run finds no static equilibrium. "
+        cure = "Give each of these shafts a bearing with an axial_stiffness above 0."
+        logger.warning(words + cure, model.path, ", ".join(loose))
     ports = _ports(reading, shafts, elements)
     if reading.absent:
         raise reading.incomplete()

@@ -17,6 +17,7 @@ from drivetrain.train.train_file import TrainCase, TrainFile
 from gearlube.studies.drivetrain.cycle import (
     cycle_figure,
     cycle_losses,
+    cycle_numbers,
     cycle_tables,
     of_cycle,
     plan_cycle,
@@ -118,6 +119,8 @@ def test_runs_of_single_steps_say_how_far_the_map_is_off(driven):
     assert "seal: seals 9" in words[0] or "seal: seals 100" in words[0]
     assert f"{100.0 * abs(found['map_error'].item()):.2g} %" in words[1]
     assert cycle_tables(found)[0].rows[-1][1] == pytest.approx(found["energy_lost"].sum().item())
+    (number,) = cycle_numbers(found)
+    assert number.value == pytest.approx(1e-3 * (found["loss"].sum("source") @ found["duration"]))
     panels = cycle_figure(found).axes
     assert panels[0].lines[0].get_ydata().max() == pytest.approx(3.6 * TOP)
 
@@ -210,11 +213,28 @@ def test_the_hypoid_axle_as_a_list_loses_what_its_own_study_says():
     )
 
 
-def test_a_train_without_a_vehicle_and_a_car_that_stands_are_refused():
+def test_a_train_without_a_vehicle_and_a_car_that_stands_or_crawls_are_refused():
     with pytest.raises(ParameterError, match=r"needs a vehicle, got none in two gears\. Give"):
         plan_cycle(case(), trapezium())
     still = gl.DriveCycle(name="still", time=np.arange(5.0), speed=np.zeros(5))
     with pytest.raises(ParameterError, match="must move in still"):
         plan_cycle(two_gears(), still)
+    rest = replace(
+        two_gears(),
+        speeds=dict.fromkeys(two_gears().speeds, 0.0),
+        torques={name: -one for name, one in two_gears().torques.items()},  # powers of -0
+    )
+    with pytest.raises(ParameterError, match="got motor 0 W at speed 0, road 0 W at speed 0"):
+        plan_cycle(rest, trapezium())
+    # the map begins at 1/100 of the highest speed, and may at 1/1000 of the 200 rad/s of the start
+    least = 0.1 * 200.0 / RATIO * RADIUS  # m/s
+    crawl = [
+        gl.DriveCycle(name="crawl", time=np.arange(5.0), speed=np.full(5, share * least))
+        for share in (0.5, 1.01)
+    ]
+    said = rf"crawl must be at least {3.6 * least:.3g} km/h for two gears, got {1.8 * least:.3g} k"
+    with pytest.raises(ParameterError, match=said):
+        plan_cycle(two_gears(), crawl[0])
+    assert plan_cycle(two_gears(), crawl[1]).speeds[0] == pytest.approx(1.01e-3 * 200.0)
     with pytest.raises(ParameterError, match="regeneration must be within 0 to 1"):
         plan_cycle(two_gears(), trapezium(), 1.5)

@@ -229,7 +229,7 @@ def test_one_gear_has_its_teeth_at_one_angle_in_all_meshes_whose_phase_counts():
                       radius=0.0225 * (19 + planet))  # fmt: skip
         for ring in turned[:2]:
             sun.fits((), (sun, ring, orbit))
-        words = rf"gear of p with {planet} teeth .* 4 deg apart .* a keyed_angle of {right:g} deg"
+        words = rf"gear of p with {planet} teeth .* 4 deg apart .* a keyed_angle of {right:g} deg, "
         with pytest.raises(ParameterError, match=words):
             sun.fits((), (sun, turned[2], orbit))
         smooth = [replace(one, stiffness_waves=()) for one in (sun, turned[2])]  # no phase

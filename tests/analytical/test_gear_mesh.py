@@ -280,7 +280,7 @@ def listed(change: str) -> Train:
 
 @each("change, words", [
     ("place", "p2 pin needs the axis of p2 at x, y = -31.9253, 55.2963 mm from that of carrier, "
-              "got -32, 55.4256 mm by the orbits on carrier"),
+              "got -32, 55.4256 mm by the orbits on carrier; a body without an orbit is on"),
     ("azimuth", "p2 pin needs the axis of p2 at x, y = -26.5713, 58.0592 mm from that of"),
     ("module", "the gear of ring with 90 teeth must have one normal_module, got 2 mm in p1 ring "
                "and 2.5 mm in p2 ring. Correct one"),

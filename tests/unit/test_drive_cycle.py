@@ -45,7 +45,8 @@ def changed(row, value, values=STEADY):
     [
         ({"speed": changed(4, np.nan)}, r"speed of mine must be finite, got nan in row 5"),
         ({"speed": changed(4, -1.0)}, r"at least -0\.5 km/h, got -3\.6 km/h in row 5, and 1 such"),
-        ({"speed": changed(4, 120.0)}, r"got 120 in row 5\. Are these km/h"),
+        ({"speed": changed(4, 120.0)}, r"0 to 90 m/s, got 120 m/s in row 5\. Are these km/h"),
+        ({"speed": STEADY, "speed_unit": "knots"}, "speed_unit must be one of m/s, km/h, mph"),
         ({"speed": changed(4, 22.0)}, r"within -12 to 8 m/s2.*got 12 m/s2 before row 5"),
         (
             {"speed": changed(range(9, 20), 0.0, np.full(20, 12.5))},
@@ -343,8 +344,9 @@ def test_a_cycle_of_vecto_over_distance_is_driven_within_the_limits_of_its_drive
     ("last", "words"),
     [
         ("2,-5", "got -5 km/h in line 6 of its file, and 1 such"),
-        ("2,400", "got 111.111 in line 6 of its file"),
-        ("2,100", "got 27.8 m/s2 before line 6 of its file"),
+        # 90 m/s, -12 and 8 m/s2, times 3.6
+        ("2,400", r"within 0 to 324 km/h, got 400 km/h in line 6 of its file\. Correct the rows"),
+        ("2,100", r"-43.2 to 28.8 km/h per s, .*got 100 km/h per s before line 6 of its file"),
         ("1,0", "got 1 s in line 6 of its file after 1 s"),
         ("9,0", "got 8 s before line 6 of its file"),
     ],
@@ -352,8 +354,9 @@ def test_a_cycle_of_vecto_over_distance_is_driven_within_the_limits_of_its_drive
 def test_a_refused_trace_names_the_line_of_its_file(last, words, tmp_path):
     path = tmp_path / "trace.csv"
     path.write_text(f"# measured\ntime_s,speed_kmh\n0,0\n\n1,0\n{last}\n")
-    with pytest.raises(ParameterError, match=words):
+    with pytest.raises(ParameterError, match=words) as told:
         gl.DriveCycle.read(path)
+    assert "name the column" not in str(told.value)  # it has that name already
 
 
 @each(
@@ -366,7 +369,7 @@ def test_a_refused_trace_names_the_line_of_its_file(last, words, tmp_path):
             "<s>,<v>,<grad>\n0,20,0\n\n9,20,80\n99,9,0\n",
             "grade of wrong.* 0.8 in line 4 of its file",
         ),
-        ("<t>,<v>\nc no row\n0,0\n1,90\n", "got 25 m/s2 before line 4 of its file"),
+        ("<t>,<v>\nc no row\n0,0\n1,90\n", "got 90 km/h per s before line 4 of its file"),
         ("<s>,<v>,<stop>\n0,0,1\n9,0,0\n", "some above 0"),
         ("<t>,<v>,v\n0,1,2\n1,2,3\n", "must have <v> once"),
     ],

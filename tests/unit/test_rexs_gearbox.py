@@ -113,6 +113,14 @@ def test_numbers_that_the_file_lacks_are_assumed_and_listed(written):
     TrainFile.from_data(found.data, "file")
 
 
+def test_a_shaft_that_no_bearing_holds_along_its_axis_is_named(written, caplog):
+    """Of the input shaft one bearing alone has an axial stiffness."""
+    read_gearbox(written(e_axle_model()))
+    assert "along the axis" not in caplog.text
+    read_gearbox(written(changed(("input fixed", "axial_stiffness", 0))))
+    assert "no bearing holds input along the axis" in caplog.text
+
+
 def test_stages_drive_where_the_power_goes(written):
     """The motor at the output, against its speed: it is driven, and power goes the other way."""
     root = e_axle_model()

@@ -151,8 +151,20 @@ WRONG = {
     ),
     "an unknown kind": (
         ('kind = "half_shaft"', 'kind = "halfshaft"'),
-        "elements.left_shaft.kind must be one of",
+        "got 'halfshaft'. Is it half_shaft?",
     ),
+    "a misspelt body": (('body = "motor"', 'body = "moter"'), "right_hub. Is it motor?"),
+    "a misspelt port": (("motor_torque = 120.0", "motor_torqe = 1.0"), "Is it motor_torque?"),
+    "a misspelt section": (("[vehicle]", "[vehicel]"), "is it vehicle?"),
+    "a misspelt section that is needed": (
+        ("[start]", "[strat]"),
+        "strat is not a field of this file; is it start?",
+    ),
+    "a drag coefficient alone": (
+        ("drag_area_m2 = ", "drag_coefficient = "),
+        "got no vehicle.frontal_area_m2.",
+    ),
+    "a tyre of another form": (("155/65R14", "155-65 R14"), "tyre: The tyre size must read"),
     "no kind": (('kind = "seal"\n', ""), "elements.seal.kind must be one of"),
     "a body that is not there": (
         ('second = "left_hub"', 'second = "hub"'),

@@ -81,8 +81,9 @@ def drivetrain(
         ),
     ] = None,
     regeneration: Annotated[
-        float, typer.Option(help="Share of the braking in the cycle that the train does, 0 to 1.")
-    ] = 1.0,
+        float | None,
+        typer.Option(help="Share of the cycle's braking that the train does, 0 to 1; default: 1."),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
@@ -107,6 +108,10 @@ def drivetrain(
             check_within("--step-us", step_us, 0.1, min(1e5, 1e3 * duration_ms), "us")
         ramp = _ramp(run_up, ramp_s)
         grid = _grid(map_speeds, map_torques)
+        if regeneration is not None and not cycle:
+            raise ParameterError(
+                "--regeneration needs --cycle, got none. Add it or leave both out."
+            )
         if cycle and grid:
             raise ParameterError("--cycle chooses the map, got --map-speeds or --map-torques too. "
                                  "Leave these out.")  # fmt: skip
@@ -142,7 +147,8 @@ def drivetrain(
             plan_ramp(case, *ramp, ramp_s)  # refuses what it cannot run before all else
         if loss_map or grid:
             Operation.of(case)  # likewise
-        plan = plan_cycle(case, trace, regeneration) if trace else None
+        share = 1.0 if regeneration is None else regeneration
+        plan = plan_cycle(case, trace, share) if trace else None
         if plan:
             loss_map, grid = True, {"speeds": plan.speeds, "torques": plan.torques}
         with run.results() as progress:

@@ -26,7 +26,7 @@ from gearlube.report.cycle import (
     variables_of,
 )
 from gearlube.report.numbers import quantity_text
-from gearlube.report.parts import GOOD, WARNING, Finding, Table
+from gearlube.report.parts import GOOD, WARNING, Finding, Number, Table
 from gearlube.studies.drivetrain.losses import largest, map_losses, point_losses, source_name
 from gearlube.studies.drivetrain.operation import Operation
 from gearlube_core.arrays import Array
@@ -38,6 +38,7 @@ from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm, rpm_to_rads
 
 FILE = "cycle.nc"
 _N_SPEEDS, _N_TORQUES = 12, 18  # of the map
+_SLOWEST = 1e-3  # of the speed of the start, below which a map has no points
 _RESERVE = 0.1  # of the largest torque, and of that of the start, for the train's own losses
 _FRESH = 10  # steps that run by themselves
 _GOOD, _BALANCED = 0.02, 1e-6  # shares of the energy lost, and of that put in
@@ -69,13 +70,18 @@ def plan_cycle(case: TrainCase, cycle: DriveCycle, regeneration: float = 1.0) ->
     fastest = float(demand.shaft_speed.max())
     if fastest <= 0.0:
         raise ParameterError(f"The car must move in {cycle.name}, got no speed above 0. Check it.")
+    speeds = speed_nodes(_N_SPEEDS, fastest)
+    if (short := _SLOWEST * operation.speed / float(speeds[0])) > 1.0:
+        kmh = 3.6 * float(demand.speed.max())
+        raise ParameterError(
+            f"The highest speed of {cycle.name} must be at least {short * kmh:.3g} km/h for "
+            f"{case.name}, got {kmh:.3g} km/h. Take a faster trace, or lower start.speed_rpm."
+        )
     reach = _RESERVE * (float(np.abs(demand.torque).max()) + operation.torque)
     ends = float(demand.torque.min()) - reach, float(demand.torque.max()) + reach
     torques = torque_nodes(_N_TORQUES, min(ends[0], -reach), max(ends[1], reach))
     # without torque flanks do not touch, and there is no equilibrium
-    return CyclePlan(
-        operation, cycle, demand, speed_nodes(_N_SPEEDS, fastest), torques[torques != 0.0]
-    )
+    return CyclePlan(operation, cycle, demand, speeds, torques[torques != 0.0])
 
 
 def train_cycle(
@@ -113,7 +119,7 @@ def train_cycle(
     Raises
     ------
     ParameterError
-        The case has no car, nothing drives it, or the map has no equilibrium where it is needed.
+        The case has no car, nothing drives it, the cycle is too slow, or the map lacks equilibria.
 
     Notes
     -----
@@ -309,6 +315,13 @@ def of_cycle(dataset: xr.Dataset | None) -> list[Finding]:
             )
         )
     return found + [Finding(WARNING, one) for one in dataset.attrs["trace_notes"].splitlines()]
+
+
+def cycle_numbers(dataset: xr.Dataset | None) -> list[Number]:
+    """Return the key numbers of a cycle."""
+    if dataset is None:
+        return []
+    return [Number("energy lost in the cycle", float(dataset["energy_lost"].sum()), "kJ")]
 
 
 def cycle_tables(dataset: xr.Dataset | None) -> list[Table]:

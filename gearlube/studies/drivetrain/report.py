@@ -25,7 +25,7 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
-from gearlube.studies.drivetrain.cycle import CYCLE_FIGURE, cycle_tables, of_cycle
+from gearlube.studies.drivetrain.cycle import CYCLE_FIGURE, cycle_numbers, cycle_tables, of_cycle
 from gearlube.studies.drivetrain.layout import layout, layout_figure
 from gearlube.studies.drivetrain.losses import loss_figure, of_map
 from gearlube.studies.drivetrain.orders import (
@@ -245,13 +245,14 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     found = [*_warnings(str(dataset.attrs["exceeded"]).splitlines()), *_drift(dataset)]
     lost = losses(dataset)
     share_kept = efficiency(dataset)
-    if sum(lost.values()) > _NO_LOSS:
+    if (total := sum(lost.values())) > _NO_LOSS:
         name, most = next(iter(lost.items()))
         share = "" if np.isnan(share_kept) else f", {100.0 * share_kept:.2f} % efficiency"
         found.append(
             Finding(
                 NOTE,
-                f"The drivetrain loses {quantity_text(sum(lost.values()), 'W')}{share}.",
+                f"The drivetrain loses {quantity_text(total, 'W')} at the file's speed and torque"
+                f"{share}.",
                 f"Most is {name.replace('_', ' ')}: {quantity_text(most, 'W')}.",
             )
         )
@@ -293,8 +294,7 @@ def _drift(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             WARNING,
             f"The speed of {name} changes from {first:.4g} to {last:.4g} rpm.",
-            "The torques do not balance. For a steady run give the load what the drive leaves "
-            "after losses.",
+            "The torques do not balance. For a steady run the load takes what losses leave.",
         )
     ]
 
@@ -327,10 +327,7 @@ def report(
     `notes` are those of a REXS file, `views` come before all figures; `clashes` are sentences.
     """
     half, lost = settled(dataset), losses(dataset)
-    speeds = [
-        (body, float(rads_to_rpm(half[f"{body}.speed"].values.mean())))
-        for body in _turning(dataset)
-    ]
+    speeds = [(b, float(rads_to_rpm(half[f"{b}.speed"].values.mean()))) for b in _turning(dataset)]
     modes: list[Sequence[Cell]] = [
         [float(frequency), str(dataset["body"].values[np.argmax(share)]), float(share.max())]
         for frequency, share in zip(
@@ -350,6 +347,7 @@ def report(
             *of_map(loss_map),
         ],
         numbers=[
+            *cycle_numbers(cycle),
             Number("power lost", sum(lost.values()), "W"),
             Number("efficiency", 100.0 * efficiency(dataset), "%", 4),
             *(

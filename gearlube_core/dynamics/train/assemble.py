@@ -14,6 +14,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from gearlube_core.arrays import Array, Offsets
+from gearlube_core.checks import is_it
 from gearlube_core.dynamics.train.axes import check_axes
 from gearlube_core.dynamics.train.element import BODY_STATES, COORDINATES, Listed
 from gearlube_core.dynamics.train.exchange import (
@@ -302,5 +303,5 @@ def _check_names(bodies: Sequence[Body], elements: Sequence[Element]) -> None:
                 known = ", ".join(one for one in names if ".modes_" not in one) or "none"
                 raise ParameterError(
                     f"{one.name} names {name!r}, which is not among the {what} of the train. "
-                    f"There are: {known}."
+                    f"There are: {known}.{is_it(name, names)}"
                 )

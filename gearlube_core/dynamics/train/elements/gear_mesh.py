@@ -303,7 +303,8 @@ class GearMesh(GearPair, Element):
             f"{gear} must have its teeth at one angle, got {mine:.6g} deg in {self.name} and "
             f"{its:.6g} deg in {other.name}, {math.degrees(abs(turned)):.4g} deg apart of a pitch "
             f"of {math.degrees(pitch):.4g} deg: the phases of these meshes contradict each other. "
-            f"Give {other.name} a keyed_angle of {_degrees(keyed, other.teeth_1):.8g} deg."
+            f"Give {other.name} a keyed_angle of {_degrees(keyed, other.teeth_1):.8g} deg, in a "
+            "train file keyed_angle_deg."
         )
 
     def _tooth_angle(self, body: str) -> float:

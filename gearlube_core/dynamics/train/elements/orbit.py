@@ -166,5 +166,6 @@ def check_distance(
         here, stands = (f"{1e3 * z.real:.6g}, {1e3 * z.imag:.6g} mm" for z in (wanted, there))
         raise ParameterError(
             f"{name} needs the axis of {second} at x, y = {here} from that of {first}, got "
-            f"{stands} by the orbits on {carrier}, 0 without one. Correct radius, azimuth or teeth."
+            f"{stands} by the orbits on {carrier}; a body without an orbit is on the axis of "
+            f"{carrier}. Correct radius, azimuth or teeth."
         )
