@@ -20,6 +20,7 @@ from gearlube_core.units import rads_to_rpm
 Variable = tuple[tuple[str, ...], Any, str, str]  # dimensions, values, unit, words
 KJ, WH = 1e-3, 1.0 / 3.6  # kJ in a joule, Wh in a kJ
 _NOTHING = 1e-6  # kJ
+_LEAST_SHARE = 1e-4  # of the sum, shown in a table
 
 
 def energy_lost(
@@ -43,10 +44,11 @@ def energy_table(dataset: xr.Dataset, words: Callable[[str], str], caption: str)
     energy = dataset["energy_lost"].values
     energy = np.where(energy > _NOTHING, energy, 0.0)
     total = max(float(energy.sum()), _NOTHING)
-    each = [*zip(dataset["source"].values, energy, strict=True), ("all", energy.sum())]
+    shown = np.where(energy > _LEAST_SHARE * total, energy, 0.0)
+    names = [words(str(name)) for name in dataset["source"].values]
+    each = [*zip(names, shown, strict=True), ("all", energy.sum())]
     rows: list[list[Cell]] = [
-        [words(str(name)), float(one), WH * float(one), 100.0 * float(one) / total]
-        for name, one in each
+        [name, float(one), WH * float(one), 100.0 * float(one) / total] for name, one in each
     ]
     return Table(
         title="Energy lost by source",
@@ -57,7 +59,7 @@ def energy_table(dataset: xr.Dataset, words: Callable[[str], str], caption: str)
             Column("share", "%"),
         ],
         rows=rows,
-        caption=caption,
+        caption=f"{caption} 0: less than 0.01 % of the sum.",
     )
 
 

@@ -14,6 +14,7 @@ import gearlube as gl
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from drivetrain.train.train_file import TrainCase, TrainFile
+from gearlube.report.numbers import column_texts
 from gearlube.studies.drivetrain.cycle import (
     cycle_figure,
     cycle_losses,
@@ -119,6 +120,11 @@ def test_runs_of_single_steps_say_how_far_the_map_is_off(driven):
     assert "seal: seals 9" in words[0] or "seal: seals 100" in words[0]
     assert f"{100.0 * abs(found['map_error'].item()):.2g} %" in words[1]
     assert cycle_tables(found)[0].rows[-1][1] == pytest.approx(found["energy_lost"].sum().item())
+    tiny = np.full(found.sizes["source"], 1e-5)  # kJ, of 20
+    tiny[0] = 20.0
+    table = cycle_tables(found.assign(energy_lost=("source", tiny)))[0]
+    assert (table.rows[-1][0], table.rows[1][1]) == ("all", 0.0)
+    assert column_texts([row[3] for row in table.rows])[-1] == "100.0"  # %
     (number,) = cycle_numbers(found)
     assert number.value == pytest.approx(1e-3 * (found["loss"].sum("source") @ found["duration"]))
     panels = cycle_figure(found).axes

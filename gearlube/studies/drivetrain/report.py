@@ -294,7 +294,8 @@ def _drift(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             WARNING,
             f"The speed of {name} changes from {first:.4g} to {last:.4g} rpm.",
-            "The torques do not balance. For a steady run the load takes what losses leave.",
+            "The torques do not balance. For a steady run give the load what the drive leaves "
+            "after losses.",
         )
     ]
 
