@@ -201,6 +201,9 @@ class _Expanded(NamedTuple):
     conductivity: float
     temperature: float
     volume_heat: float
+    slope: float
+    modulus: float
+    modulus_slope: float
 
 
 @kernel
@@ -219,6 +222,9 @@ def _no_expansion(
         oil.conductivity,
         oil.temperature,
         oil.volume_heat,
+        oil.slope,
+        oil.modulus,
+        oil.modulus_slope,
     )
     tuple_to_array(kept, expansion)
 
@@ -239,6 +245,9 @@ def _sum_of_forces(
         kept.conductivity,
         kept.temperature,
         kept.volume_heat,
+        kept.slope,
+        kept.modulus,
+        kept.modulus_slope,
     )
     F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, lost = shaft_forces(bearings, motion, kept.f_ref, oil)
     return F1_r1 + F2_r1, F1_r2 + F2_r2, F1_a + F2_a, lost

@@ -189,7 +189,7 @@ def _inlet_of(oil: Lubricant, temperature: float, solid: Any) -> FilmInlet:
     inlet: FilmInlet = film_inlet(
         solid.contact_modulus,
         state.eta0,
-        state.alpha,
+        state.slope,
         state.beta,
         state.tau0,
         0.0,

@@ -22,7 +22,7 @@ from gearlube_core.oil.lubricant import LubricantState
 
 # behind the numbers of the model: the oil that the numbers behind it belong to, and these
 _OIL = net.N_ARRAY
-_OIL_FLOATS = 10  # of LubricantState, without its laws
+_OIL_FLOATS = 13  # of LubricantState, without its laws
 _INLET = _OIL + _OIL_FLOATS + 1
 N_FLANK_MODEL = _INLET + count_floats(FilmInlet)
 _LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
@@ -77,7 +77,7 @@ def model_inlet(
     return film_inlet(
         solid.contact_modulus,
         lubricant.eta0,
-        lubricant.alpha,
+        lubricant.slope,
         lubricant.beta,
         lubricant.tau0,
         0.0,

@@ -23,8 +23,9 @@ class BaseOil(NamedTuple):
     """Values of one class of base oils."""
 
     words: str
+    viscosity_law: tuple[str, str]  # name, and where it is from
     density_slope: ClassValue  # d rho/dT [kg/(m3 K)]
-    alpha: ClassValue  # measured over estimated pressure-viscosity coefficient [-]
+    alpha: ClassValue  # measured over estimated mean slope of ln eta to 200 MPa [-]
     limiting_coefficient: ClassValue  # limiting shear stress of the film over pressure [-]
     conductivity: ClassValue  # [W/(m K)]
     heat_capacity: ClassValue  # [J/(kg K)]
@@ -40,10 +41,12 @@ _USUAL = "usual for the class; no source compared"
 _HOGLUND = "[arana_2019] after [hoglund_1999]"
 _GOLD = "[gold_2001] against measured oils, see docs/oil_file.md"
 _NO_OIL = "no measured oil of the class was at hand"
+_SHAPE = "[arana_2019 Table 3], shape of the measured"
 
 BASE_OILS = {
     "mineral": BaseOil(
         "paraffinic mineral oil",
+        ("modulus", f"{_SHAPE} paraffinic mineral oil, with this alpha"),
         ClassValue(-0.6, 1.2, "reference oil FVA 3 [wingertszahn_2023]"),
         ClassValue(1.0, 1.3, f"{_GOLD}; a naphthenic oil is 25 % higher"),
         ClassValue(0.047, 1.2, f"{_HOGLUND}; a naphthenic oil has 0.053"),
@@ -52,6 +55,7 @@ BASE_OILS = {
     ),
     "pao": BaseOil(
         "polyalphaolefin",
+        ("modulus_pao", f"{_SHAPE} polyalphaolefin, with this alpha"),
         ClassValue(-0.6, 1.2, _USUAL),
         ClassValue(1.0, 1.15, f"{_GOLD}; one PAO is 7 to 11 % lower"),
         ClassValue(0.035, 1.2, _HOGLUND),
@@ -60,6 +64,7 @@ BASE_OILS = {
     ),
     "ester": BaseOil(
         "polyol ester or diester",
+        ("modulus_pao", f"{_SHAPE} polyalphaolefin, with this alpha; {_NO_OIL}"),
         ClassValue(-0.7, 1.2, _USUAL),
         ClassValue(1.0, 1.3, f"[gold_2001]; {_NO_OIL}"),
         ClassValue(0.035, 1.4, f"that of a polyalphaolefin; {_NO_OIL}"),
@@ -68,6 +73,7 @@ BASE_OILS = {
     ),
     "pag": BaseOil(
         "polyglycol",
+        ("modulus_pao", f"{_SHAPE} polyalphaolefin, with this alpha; {_NO_OIL}"),
         ClassValue(-0.75, 1.2, _USUAL),
         ClassValue(1.0, 1.3, f"[gold_2001]; {_NO_OIL}"),
         ClassValue(0.044, 1.2, _HOGLUND),

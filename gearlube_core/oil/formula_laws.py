@@ -25,7 +25,7 @@ _HALVINGS = 100  # of a bracket as wide as the Newtonian stress: 1e-30 of it is 
 
 
 class Printed(NamedTuple):
-    """Stands for the law that a formula's source prints."""
+    """Stands for the law that a formula's source prints, or the pressure factor of the oil."""
 
     @kernel
     def law_at(self, eta0: float, alpha: float) -> Printed:
@@ -34,12 +34,16 @@ class Printed(NamedTuple):
 
     @kernel
     def mean_slope(self, oil: Any, p: float) -> float:
-        """Return alpha [1/Pa], by Barus."""
+        """Return alpha [1/Pa], by Barus, or that of the pressure factor p/(A + B p)."""
+        if oil.modulus > 0.0:
+            return 1.0 / (oil.modulus + oil.modulus_slope * p)
         return oil.alpha
 
     @kernel
     def log_viscosity_under(self, oil: Any, p: float) -> float:
-        """Return ln eta by Roelands."""
+        """Return ln eta by Roelands, or by the pressure factor."""
+        if oil.modulus > 0.0:
+            return math.log(oil.eta0) + p / (oil.modulus + oil.modulus_slope * p)
         Z = oil.alpha / (ROELANDS_PRESSURE * (math.log(oil.eta0) + ROELANDS_LOG_VISCOSITY))
         return math.log(roelands_viscosity(oil.eta0, Z, p))
 

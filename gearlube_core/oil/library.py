@@ -57,6 +57,9 @@ def lubricant_data(library: Mapping[str, Any], name: str) -> dict[str, Any]:
     data = {key: datum_value(entry["data"], key, f"{name}.data") for key in entry["data"]}
     fields: dict[str, Any] = {}
     for key, value in data.items():
+        if isinstance(value, str):
+            fields[key] = value
+            continue
         number = check_finite(f"{name}.data.{key}", value)
         if key.endswith(KELVIN_SUFFIX):
             fields[key.removesuffix(KELVIN_SUFFIX)] = celsius_to_kelvin(number)

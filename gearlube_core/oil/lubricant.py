@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields, replace
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -10,7 +11,7 @@ from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Positive, check_fields
-from gearlube_core.oil.film_laws import log_viscosity
+from gearlube_core.oil.film_laws import log_viscosity, roelands
 from gearlube_core.oil.formula_laws import (
     FORMULA_LAWS,
     OilLaws,
@@ -22,6 +23,18 @@ from gearlube_core.oil.library import (
     LOWEST_VISCOSITY,
     lubricant_data,
     read_library,
+)
+from gearlube_core.oil.pressure_coefficients import (
+    MEAN_PRESSURE,
+    AlphaIs,
+    pressure_coefficient,
+    slope_for,
+)
+from gearlube_core.oil.pressure_factor import (
+    NO_FACTOR,
+    PressureFactor,
+    film_coefficient,
+    modulus_at,
 )
 from gearlube_core.oil.roelands_1966 import pressure_viscosity_coefficient, roelands_exponent
 from gearlube_core.oil.walther_1931 import (
@@ -38,6 +51,12 @@ _LAW_TOLERANCE = 1e-6  # of ln(eta/eta0); rounding of a power is 1e-12
 _SLOPE_TOLERANCE = 1e-3  # of alpha; the constants of Roelands in use differ by 4e-5
 
 
+@cache
+def _roelands_slope(eta0: float, alpha: float, alpha_is: AlphaIs, to: float) -> float:
+    """Return the slope [1/Pa] of the law of Roelands that has a coefficient [1/Pa]."""
+    return slope_for(lambda slope: roelands(eta0, slope), alpha, alpha_is, to)
+
+
 class LubricantParameters(NamedTuple):
     """What the kernels need to know of a lubricant; all floats, SI."""
 
@@ -45,6 +64,7 @@ class LubricantParameters(NamedTuple):
     walther_b: float  # [-]
     density: float  # [kg/m3]
     roelands_z: float  # [-]
+    alpha_share: float  # alpha of films over the slope of ln eta by Roelands [-]
     tau0: float  # Eyring stress [Pa]
     tau_l0: float  # limiting shear stress at zero pressure [Pa]
     gamma: float  # boundary friction: slope of limiting shear stress with pressure [-]
@@ -52,6 +72,7 @@ class LubricantParameters(NamedTuple):
     conductivity_temperature: float  # [K]
     conductivity_slope: float  # [W/(m K2)]
     heat_capacity: float  # [J/(kg K)]
+    factor: PressureFactor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,7 +89,9 @@ class Lubricant:
         Density [kg/m3], taken as independent of temperature.
     alpha
         Pressure-viscosity coefficient [1/Pa] at `alpha_temperature` [K]. At other temperatures
-        it follows from a constant Roelands exponent.
+        it follows from the viscosity law, else from a constant Roelands exponent.
+    alpha_is, alpha_pressure
+        What `alpha` is, see `pressure_coefficient`; a mean slope goes to this pressure [Pa].
     eyring_stress
         Shear stress at which shear thinning begins [Pa].
     limiting_shear_stress, boundary_friction
@@ -121,6 +144,8 @@ class Lubricant:
     viscosity_law: Part | None = None
     density_law: Part | None = None
     shear_law: Part | None = None
+    alpha_is: AlphaIs = "slope"
+    alpha_pressure: Annotated[float, Number("Pa", 1e7, 1e9, "200 MPa is 2e8 Pa.")] = MEAN_PRESSURE
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -176,6 +201,12 @@ class Lubricant:
                 f"Lubricant {name} in {path}: missing {missing or 'nothing'}, "
                 f"unknown {unknown or 'nothing'}."
             )
+        if "viscosity_law" in data:
+            from gearlube_core.oil.named_laws import ViscosityLaw  # which knows oils
+
+            data["viscosity_law"] = ViscosityLaw.kind.named(
+                "viscosity_law", data["viscosity_law"], {}
+            )
         return cls(**data)
 
     @classmethod
@@ -204,8 +235,24 @@ class Lubricant:
 
     @property
     def roelands_z(self) -> float:
-        """Pressure exponent of the Roelands law [-]."""
-        return roelands_exponent(self.dynamic_viscosity(self.alpha_temperature), self.alpha)
+        """Pressure exponent of the Roelands law [-], with the same alpha."""
+        return roelands_exponent(self.dynamic_viscosity(self.alpha_temperature), self._slope())
+
+    def _slope(self) -> float:
+        """Return the slope of ln eta by Roelands at ambient pressure, at `alpha_temperature`."""
+        factor, T = self.pressure_factor(), float(self.alpha_temperature)
+        if factor is not None:
+            alpha = film_coefficient(*modulus_at(factor, T))
+            return _roelands_slope(self.dynamic_viscosity(T), alpha, "film", MEAN_PRESSURE)
+        if self.alpha_is == "slope":
+            return self.alpha
+        eta0 = self.dynamic_viscosity(T)
+        return _roelands_slope(eta0, self.alpha, self.alpha_is, self.alpha_pressure)
+
+    def pressure_factor(self) -> PressureFactor | None:
+        """Return the pressure factor, of a law that has one."""
+        law: Any = self.viscosity_law
+        return law.factor_of(self) if hasattr(law, "factor_of") else None
 
     def state(self, temperature: float) -> LubricantState:
         """Return the properties at a temperature [K], with the laws of its own."""
@@ -233,7 +280,7 @@ class Lubricant:
         that is none brings the kernel `law_at`, see `formula_laws`.
         """
         laws, viscosity, shear = FORMULA_LAWS, self.viscosity_law, self.shear_law
-        if viscosity is not None and not viscosity.ships:
+        if viscosity is not None and not getattr(viscosity, "formulas_know", False):
             law = self._law_for(self.alpha_temperature)
             if not hasattr(law, "law_at"):
                 law = OverAlpha(law, float(self.alpha))
@@ -280,6 +327,7 @@ class Lubricant:
             walther_b=float(self.walther_b),
             density=float(self.density),
             roelands_z=float(self.roelands_z),
+            alpha_share=float(self._alpha_share()),
             tau0=float(self.eyring_stress),
             tau_l0=float(self.limiting_shear_stress),
             gamma=float(self.boundary_friction),
@@ -287,7 +335,18 @@ class Lubricant:
             conductivity_temperature=float(self.conductivity_temperature),
             conductivity_slope=float(self.conductivity_slope),
             heat_capacity=float(self.heat_capacity),
+            factor=self.pressure_factor() or NO_FACTOR,
         )
+
+    def _alpha_share(self) -> float:
+        """Return alpha of films over the slope by Roelands, at `alpha_temperature` [-]."""
+        factor, T = self.pressure_factor(), float(self.alpha_temperature)
+        if factor is not None:
+            return film_coefficient(*modulus_at(factor, T)) / self._slope()
+        if self.alpha_is == "slope":
+            return 1.0  # as the sources of formulas take it
+        eta0 = self.dynamic_viscosity(T)
+        return pressure_coefficient(roelands(eta0, self._slope()), "film") / self._slope()
 
 
 def lubricant_names() -> tuple[str, ...]:
@@ -305,7 +364,7 @@ class LubricantState(NamedTuple):
     """Properties of a lubricant at one temperature and atmospheric pressure."""
 
     eta0: float  # dynamic viscosity [Pa s]
-    alpha: float  # pressure-viscosity coefficient [1/Pa]
+    alpha: float  # pressure-viscosity coefficient of films [1/Pa]
     beta: float  # -d ln eta0 / dT [1/K]
     nu: float  # kinematic viscosity [m2/s]
     tau0: float  # Eyring stress [Pa]
@@ -314,6 +373,9 @@ class LubricantState(NamedTuple):
     conductivity: float  # [W/(m K)]
     temperature: float  # of the oil [K]
     volume_heat: float  # heat capacity by volume [J/(m3 K)]
+    slope: float  # of ln eta at ambient pressure by Roelands, with the same alpha [1/Pa]
+    modulus: float = 0.0  # A of the pressure factor [Pa]; 0: the law of each formula
+    modulus_slope: float = 0.0  # B [-]
     viscosity: Any = FORMULA_LAWS.viscosity  # law over pressure, see `formula_laws`
     shear: Any = FORMULA_LAWS.shear  # law of shear, likewise
 
@@ -324,7 +386,8 @@ def lubricant_state(
 ) -> LubricantState:
     """Return the properties of a lubricant at a temperature.
 
-    eta0 = rho nu(T);  alpha = 5.1e-9 Z (ln eta0 + 9.67) at constant Z;
+    eta0 = rho nu(T);  alpha = 5.1e-9 s Z (ln eta0 + 9.67) at constant Z and share s, or that of
+    the pressure factor;
     K = K_ref + dK/dT (T - T_ref)
 
     Parameters
@@ -347,7 +410,10 @@ def lubricant_state(
     """
     nu, beta = walther_viscosity(parameters.walther_a, parameters.walther_b, temperature)
     eta0 = parameters.density * nu
-    alpha = pressure_viscosity_coefficient(eta0, parameters.roelands_z)
+    alpha = parameters.alpha_share * pressure_viscosity_coefficient(eta0, parameters.roelands_z)
+    A, B = modulus_at(parameters.factor, temperature)
+    if A > 0.0:
+        alpha = film_coefficient(A, B)
     offset = temperature - parameters.conductivity_temperature
     conductivity = parameters.conductivity + parameters.conductivity_slope * offset
     return LubricantState(
@@ -361,6 +427,9 @@ def lubricant_state(
         conductivity,
         temperature,
         parameters.density * parameters.heat_capacity,
+        alpha / parameters.alpha_share,
+        A,
+        B,
         law_at(laws.viscosity, eta0, alpha),
         laws.shear,
     )

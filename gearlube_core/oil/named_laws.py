@@ -42,7 +42,7 @@ from gearlube_core.part import Kind, Part
 
 
 def _kind(what: str) -> Kind[Any]:
-    return Kind(what=what, group="gearlube.laws", package="gearlube_core.oil", files="named_laws")
+    return Kind(what=what, group="gearlube.laws", package="gearlube_core.oil", files="*_law*")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +51,7 @@ class ViscosityLaw(Part):
 
     kind: ClassVar[Kind[ViscosityLaw]] = _kind("viscosity law")
     least_viscosity: ClassVar[float] = 0.0  # at ambient pressure [Pa s]
+    formulas_know: ClassVar[bool] = False  # formulas have their own law for it, or its numbers
 
     @abstractmethod
     def __call__(self, eta0: float, alpha: float) -> Any:
@@ -86,6 +87,8 @@ class ShearLaw(Part):
 class Barus(ViscosityLaw, name="barus"):
     """eta = eta0 exp(alpha p)."""
 
+    formulas_know = True
+
     def __call__(self, eta0: float, alpha: float) -> RoelandsHoupert:
         """Return the law for kernels."""
         return barus(alpha)
@@ -94,6 +97,7 @@ class Barus(ViscosityLaw, name="barus"):
 class Roelands(ViscosityLaw, name="roelands"):
     """eta = eta0 exp{A [(1 + chi p)^Z - 1]}."""
 
+    formulas_know = True
     least_viscosity = 1.0001 * ROELANDS_KAPPA
 
     def __call__(self, eta0: float, alpha: float) -> RoelandsHoupert:

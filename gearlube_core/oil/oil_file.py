@@ -15,9 +15,11 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
 from gearlube_core.input_file.field_units import field_unit
 from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, toml_data
+from gearlube_core.oil.base_oils import BASE_OILS
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
+from gearlube_core.oil.pressure_coefficients import AlphaIs
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
 
 FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
@@ -36,8 +38,18 @@ HeatCapacity = Annotated[float, _oil("heat_capacity_j_kg_k"), Usual(1300.0, 3500
 Temperature = Annotated[float, Field(ge=-60.0, le=250.0, allow_inf_nan=False), Usual(-55.0, 200.0)]
 
 ViscosityAt100 = Annotated[Viscosity | None, Field(description="Kinematic viscosity at 100 degC")]
-Alpha = Annotated[
-    PressureViscosity | None, Field(description="Pressure-viscosity coefficient at low pressure")
+Alpha = Annotated[PressureViscosity | None, Field(description="Pressure-viscosity coefficient")]
+AlphaMeaning = Annotated[
+    AlphaIs | None,
+    Field(
+        description="What alpha is: from measured films, the slope of ln eta at ambient pressure, "
+        "or its mean slope to alpha_pressure_gpa; without a name it is read as from films"
+    ),
+]
+AlphaPressure = Annotated[
+    float | None,
+    _oil("alpha_pressure_gpa"),
+    Field(description="Pressure to which a mean slope goes"),
 ]
 AlphaTemperature = Annotated[
     Temperature | None, Field(description="Temperature to which alpha belongs")
@@ -81,6 +93,7 @@ _LIBRARY_UNITS = {
     "dynamic_2": "Pa.s",
     "density": "kg/m3",
     "alpha": "1/Pa",
+    "alpha_is": "",
     "eyring_stress": "Pa",
     "limiting_shear_stress": "Pa",
     "conductivity": "W/(m.K)",
@@ -135,7 +148,7 @@ class OilFile(InputFile):
     ('iso_vg_220_pao',)
     >>> oil = OilFile.named("iso_vg_220_pao").described().lubricant
     >>> round(1e9 * oil.alpha, 1)  # 1/GPa at 40 degC
-    18.6
+    15.2
     """
 
     package: ClassVar[str] = "gearlube_core.oil"
@@ -162,6 +175,8 @@ class OilFile(InputFile):
         default=None, description="Viscosity index after ASTM D2270, instead of one viscosity"
     )
     alpha_per_gpa: Alpha = None
+    alpha_is: AlphaMeaning = None
+    alpha_pressure_gpa: AlphaPressure = None
     alpha_temperature_degc: AlphaTemperature = None
     alpha_factor: Factor | None = Field(
         default=None,
@@ -183,8 +198,8 @@ class OilFile(InputFile):
     boundary_friction: BoundaryFriction = None
     viscosity_law: Annotated[str, OneOf(ViscosityLaw.kind.known)] | None = Field(
         default=None,
-        description="Law of viscosity over pressure in solved films; one of your own also in "
-        "formulas",
+        description="Law of viscosity over pressure; Barus, Roelands and Houpert act in solved "
+        "films alone, formulas keep the law of their source",
     )
     density_law: Annotated[str, OneOf(DensityLaw.kind.known)] | None = Field(
         default=None, description="Law of density over pressure in solved films"
@@ -231,15 +246,25 @@ class OilFile(InputFile):
             shear_law=(ShearLaw, self.shear_law),
         )
         given = self.model_dump(exclude_none=True, exclude={*laws, "law_numbers"})
+        own = laws.get("viscosity_law")
+        if own is not None and not own.formulas_know:
+            given.setdefault("alpha_is", "slope")
         values: SheetValues = sheet_values(given)
         notes = [InputNote(field, law.name, "", "given", "") for field, law in laws.items()]
+        if "viscosity_law" not in laws:
+            law, why = BASE_OILS[self.base_oil].viscosity_law
+            laws["viscosity_law"] = ViscosityLaw.kind.named("viscosity_law", law, {})
+            notes.append(InputNote("viscosity_law", law, "", "assumed", why))
         for law in laws.values():
             notes += law.notes("law_numbers.", self.law_numbers or {})
         return DescribedOil(
             name=self.name,
             source=self.source or "",
             lubricant=Lubricant(
-                name=self.name, source=self.source or "an oil file", **(values.data | laws)
+                name=self.name,
+                source=self.source or "an oil file",
+                alpha_is=values.alpha_is,
+                **(values.data | laws),
             ),
             inputs=(*values.notes, *notes),
             limiting_coefficient=values.limiting_coefficient,
@@ -282,7 +307,7 @@ def read_oil(name: str | Path) -> DescribedOil:
     866.6
     >>> oil = read_oil("iso_vg_220_pao")
     >>> round(1e-6 * oil.lubricant.eyring_stress, 1)  # MPa
-    3.8
+    4.6
     """
     text = str(name)
     if text.endswith(".toml") or isfile(text):

@@ -20,11 +20,7 @@ from gearlube_core.oil.base_oils import (
     REFERENCE_DENSITY_DEGC,
     eyring_stress_of,
 )
-from gearlube_core.oil.roelands_1966 import (
-    ROELANDS_LOG_VISCOSITY,
-    ROELANDS_PRESSURE,
-    pressure_viscosity_coefficient,
-)
+from gearlube_core.oil.pressure_coefficients import MEAN_PRESSURE, AlphaIs
 from gearlube_core.oil.walther_1931 import (
     MM2_S,
     walther_coefficients,
@@ -53,7 +49,6 @@ _ROWS = (
     (70.0, 0.83531, 14.6731, -216.246, 0.16841, 11.8493, -96.947),
 )
 _SLOPE = 0.00715  # of the index above 100
-SECANT_PRESSURE = 2.0e8  # Pa, of the correlated coefficient
 # [gold_2001]: s [1/GPa] and t [-]
 _CONSTANTS = {
     "mineral": (9.904, 0.1390),
@@ -177,38 +172,11 @@ def secant_coefficient(base_oil: str, nu: float) -> float:
     return 1e-9 * float(s * (nu / MM2_S) ** t)
 
 
-def ambient_coefficient(secant: float, eta0: float) -> float:
-    """Return the slope of ln eta at ambient pressure for a mean slope up to 200 MPa.
-
-    By Roelands' law: Z = ln[1 + alpha_2000 p/(ln eta0 + 9.67)]/ln(1 + 5.1e-9 p)
-
-    Parameters
-    ----------
-    secant : float
-        From `secant_coefficient` [1/Pa].
-    eta0 : float
-        Viscosity at ambient pressure, the same temperature [Pa s].
-
-    Returns
-    -------
-    float
-        alpha [1/Pa]; 13 to 23 % above the mean slope for gear oils.
-
-    Notes
-    -----
-    With `secant_coefficient`, at 40 and 100 degC: a measured paraffinic oil of ISO VG 100 is
-    4 % lower and 2 % higher, a PAO 7 and 11 % lower, a naphthenic oil 25 and 13 % higher
-    [arana_2019 Table 3].
-    """
-    growth = secant * SECANT_PRESSURE / (math.log(eta0) + ROELANDS_LOG_VISCOSITY)
-    Z = math.log1p(growth) / math.log1p(ROELANDS_PRESSURE * SECANT_PRESSURE)
-    return float(pressure_viscosity_coefficient(eta0, Z))
-
-
 class SheetValues(NamedTuple):
     """Fields of `Lubricant` in SI units, notes on them, and what a lubricant does not hold."""
 
     data: dict[str, float]
+    alpha_is: AlphaIs
     notes: list[InputNote]
     limiting_coefficient: float
     density_slope: float
@@ -259,14 +227,21 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
     alpha_degc = notes.value("alpha_temperature_degc", 40.0, "assumed", "of the first viscosity")
     alpha_kelvin = celsius_to_kelvin(alpha_degc)
     nu = walther_kinematic_viscosity(A, B, alpha_kelvin)
-    estimate = ambient_coefficient(secant_coefficient(given["base_oil"], nu), nu * density)
     alpha = 1e-9 * notes.value(
         "alpha_per_gpa",
-        1e9 * estimate * base.alpha.value,
+        1e9 * secant_coefficient(given["base_oil"], nu) * base.alpha.value,
         "inferred",
-        "Gold et al. 2001 from viscosity and base oil; Roelands to low pressure",
+        "Gold et al. 2001 from viscosity and base oil",
     )
     measured = "alpha_per_gpa" in given
+    alpha_is: AlphaIs = given.get("alpha_is", "film" if measured else "mean")
+    if not measured and alpha_is != "mean":
+        raise ParameterError(
+            f"alpha_is must be left out without alpha_per_gpa, got {alpha_is!r}. Give alpha too."
+        )
+    why = "a number without a name is read as from films" if measured else "Gold et al. 2001"
+    notes.note("alpha_is", alpha_is, *(("given", "") if "alpha_is" in given else ("assumed", why)))
+    to = 1e9 * notes.value("alpha_pressure_gpa", 1e-9 * MEAN_PRESSURE, "assumed", "the usual end")
     alpha_factor = notes.value(
         "alpha_factor",
         MEASURED_ALPHA_FACTOR if measured else base.alpha.factor,
@@ -318,6 +293,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "density": density,
         "alpha": alpha,
         "alpha_temperature": alpha_kelvin,
+        "alpha_pressure": to,
         "alpha_factor": alpha_factor,
         "eyring_stress": eyring,
         "eyring_stress_factor": eyring_factor,
@@ -330,7 +306,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "temperature_low": celsius_to_kelvin(low),
         "temperature_high": celsius_to_kelvin(high),
     }
-    return SheetValues(data, notes.notes, limit, slope)
+    return SheetValues(data, alpha_is, notes.notes, limit, slope)
 
 
 def _viscosities(notes: _Notes) -> tuple[float, float]:

@@ -19,6 +19,7 @@ from gearlube_core.oil.oil_file import OilFile
 from tests.helpers.each import each
 from tests.helpers.oil_with_own_law import SHEET
 from tests.helpers.own_oil_in_gears import (
+    BARUS,
     LIMIT,
     LINE,
     LOW_LIMIT,
@@ -33,7 +34,9 @@ from tests.helpers.own_process import INTERPRETED, report_of
 
 AXLE = mohammadpour_2015_axle()
 FLANKS = (0, 1, 2)
-PLAIN = OilFile.from_data(SHEET | {"eyring_stress_mpa": 4.0}, "the oil").described().lubricant
+PLAIN = (
+    OilFile.from_data(SHEET | BARUS | {"eyring_stress_mpa": 4.0}, "the oil").described().lubricant
+)
 E_STAR = contact_modulus(AXLE.solid, AXLE.solid)
 EFFUSIVITY_SQUARED = SOLID.conductivity * SOLID.density * SOLID.heat_capacity
 

@@ -18,6 +18,7 @@ Q = 20.0
 SHEET = {
     "name": "sheet", "base_oil": "pao", "density_kg_m3": 850.0, "viscosity_40_degc_mm2_s": 100.0,
     "viscosity_100_degc_mm2_s": 14.0, "alpha_per_gpa": 15.0, "alpha_temperature_degc": 40.0,
+    "alpha_is": "slope",
 }  # fmt: skip
 OWN = {"viscosity_law": "mcewen", "law_numbers": {"q": Q}}
 

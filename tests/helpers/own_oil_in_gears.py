@@ -43,12 +43,13 @@ LINE = 4e5, 0.02, 8.0, 1.5  # N/m, m, m/s, m/s
 RIB = RibParameters(0.03, 0.02, 0.2, 0.3, 0.2, 1.0, 1e-8, 1.9, 0.99, 0.15, 2.3e11), 800.0, 300.0
 SURFACE, SOLID = gear_flanks(2e-8), steel_on_steel()
 NUMBERS = {"q": Q, "limit": LIMIT}
+BARUS = {"viscosity_law": "barus"}  # formulas keep the law of their source
 LAWS = {
-    "none": {},
+    "none": BARUS,
     "own_barus": {"viscosity_law": "own_barus"},
     "over_eta0_followed": {"viscosity_law": "over_eta0_followed"},
     "mcewen": {"viscosity_law": "mcewen", "law_numbers": {"q": Q}},
-    "gecim_winer": {"shear_law": "gecim_winer", "law_numbers": {"limit": LIMIT}},
+    "gecim_winer": BARUS | {"shear_law": "gecim_winer", "law_numbers": {"limit": LIMIT}},
 }
 
 

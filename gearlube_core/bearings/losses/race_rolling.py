@@ -65,7 +65,7 @@ def roller_inlet(oil: LubricantState, solid: SolidParameters) -> FilmInlet:
     return film_inlet(
         solid.contact_modulus,
         oil.eta0,
-        oil.alpha,
+        oil.slope,
         oil.beta,
         oil.tau0,
         0.0,

@@ -1,0 +1,172 @@
+"""Viscosity over pressure and temperature with the pressure factor of a class of base oils.
+
+    ln(eta/eta0) = p/(A + B p),  A = (a1 + a2 T)/s,  B = b1 + b2 T
+
+The scale s gives the oil its own alpha; the viscosity at ambient pressure is that of its line of
+Walther.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Annotated, NamedTuple
+
+from gearlube_core.errors import ParameterError
+from gearlube_core.kernels.jit import kernel
+from gearlube_core.number import Number
+from gearlube_core.oil.film_laws import log_viscosity
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.named_laws import ViscosityLaw
+from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
+from gearlube_core.oil.walther_1931 import walther_viscosity
+
+_HALVINGS = 60  # of a range of temperatures
+_RANGE = (0.4, 2.5)  # of T over that of the oil, where a temperature is looked for
+_MANN = "falling-body viscosities by Mann to 0.5 GPa [arana_2019 Table 3]"
+
+_FVA = "the formula that [wingertszahn_2023] quotes"
+
+
+class Modulus(NamedTuple):
+    """The law for kernels; all floats, SI."""
+
+    factor: PressureFactor
+    walther_a: float  # [-]
+    walther_b: float  # [-]; 0: one viscosity at all temperatures
+    temperature: float  # of the oil [K]
+    unit: float  # of pressure [Pa]
+
+    @kernel
+    def log_viscosity(self, p: float, cooling: float) -> tuple[float, float]:
+        """Return ln(eta/eta0) and its derivative by p; below ambient pressure the tangent there."""
+        T = cooling * self.temperature
+        A, B = modulus_at(self.factor, T)
+        below = A + B * max(p * self.unit, 0.0)
+        value, slope = p * self.unit / below, self.unit * A / (below * below)
+        if cooling != 1.0 and self.walther_b > 0.0:
+            now = walther_viscosity(self.walther_a, self.walther_b, T)[0]
+            then = walther_viscosity(self.walther_a, self.walther_b, self.temperature)[0]
+            value += math.log(now / then)
+        return value, slope
+
+    @kernel
+    def cooling_factor(self, temperature: float, oil_temperature: float) -> float:
+        """Return T over that of the oil."""
+        return temperature / oil_temperature
+
+    @kernel
+    def cooling_at(self, p: float, log_ratio: float) -> float:
+        """Return T over that of the oil at which ln(eta/eta0) is `log_ratio`."""
+        if self.walther_b == 0.0:
+            return 1.0
+        low, high = _RANGE
+        for _ in range(_HALVINGS):
+            mid = 0.5 * (low + high)
+            if log_viscosity(self, p, mid)[0] > log_ratio:
+                low = mid
+            else:
+                high = mid
+        return 0.5 * (low + high)
+
+    @kernel
+    def viscosity_decline(self, p: float, temperature: float, oil_temperature: float) -> float:
+        """Return -d ln eta/dT [1/K]."""
+        if self.walther_b == 0.0:
+            return 0.0
+        f, x = self.factor, max(p * self.unit, 0.0)
+        A, B = modulus_at(f, temperature)
+        turn = f.a2 + (f.b2 if f.b1 + f.b2 * temperature >= B else 0.0) * x
+        beta = walther_viscosity(self.walther_a, self.walther_b, temperature)[1]
+        return beta + x * turn / (A + B * x) ** 2
+
+    def in_units(self, unit: float) -> Modulus:
+        """Return the law with pressure in a unit [Pa]."""
+        return self._replace(unit=self.unit * unit)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModulusLaw(ViscosityLaw, name="modulus"):
+    """exp[p/(A + B p)] with numbers of an oil's own, by default of a paraffinic mineral oil.
+
+    `at` scales the factor to the alpha of an oil.
+    """
+
+    formulas_know = True
+    a1: Annotated[float, Number("Pa", -2e8, 2e8, source=_MANN)] = -2.28e7
+    a2: Annotated[float, Number("Pa/K", 1e4, 2e6, source=_MANN)] = 2.26e5
+    b1: Annotated[float, Number("1", -0.5, 0.5, source=_MANN)] = -68.20e-3
+    b2: Annotated[float, Number("1/K", -1e-3, 2e-3, source=_MANN)] = 27.68e-5
+    factor_temperature: float = 353.15  # [K], where there is no oil
+    oil: Lubricant | None = None
+
+    def at(self, oil: Lubricant, temperature: float) -> tuple[ViscosityLaw, float]:
+        """Return the law of an oil at a temperature [K], and eta0 there [Pa s]."""
+        law = replace(self, oil=oil, factor_temperature=temperature)
+        return law, oil.dynamic_viscosity(temperature)
+
+    def factor_of(self, oil: Lubricant) -> PressureFactor:
+        """Return the factor that has the alpha of an oil.
+
+        Raises
+        ------
+        ParameterError
+            No scale gives a mean slope of this size.
+        """
+        T, alpha, to = oil.alpha_temperature, oil.alpha, oil.alpha_pressure
+        A, B = modulus_at(self._own, float(T))
+        wanted = 1.0 / alpha
+        if oil.alpha_is == "film":
+            wanted = A * film_coefficient(A, B) / alpha
+        elif oil.alpha_is == "mean":
+            wanted -= B * to
+        if not wanted > 0.0:
+            raise ParameterError(
+                f"alpha as the mean slope to {1e-9 * to:g} GPa must be below "
+                f"{1e9 / (B * to):.3g} 1/GPa with the viscosity law {self.name}, got "
+                f"{1e9 * alpha:.4g} 1/GPa. Check alpha and its pressure, or take another law."
+            )
+        return self._own.scaled(A / wanted)
+
+    @property
+    def _own(self) -> PressureFactor:
+        return PressureFactor(float(self.a1), float(self.a2), float(self.b1), float(self.b2))
+
+    def __call__(self, eta0: float, alpha: float) -> Modulus:
+        """Return the law for kernels; an oil's own alpha counts, else `alpha` of films."""
+        oil, T = self.oil, float(self.factor_temperature)
+        if oil is not None:
+            line = float(oil.walther_a), float(oil.walther_b)
+            return Modulus(self.factor_of(oil), *line, T, 1.0)
+        scale = alpha / film_coefficient(*modulus_at(self._own, T))
+        return Modulus(self._own.scaled(scale), 0.0, 0.0, T, 1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class NaphthenicModulus(ModulusLaw, name="modulus_naphthenic"):
+    """That of a naphthenic mineral oil."""
+
+    a1: Annotated[float, Number("Pa", -2e8, 2e8, source=_MANN)] = -7.23e7
+    a2: Annotated[float, Number("Pa/K", 1e4, 2e6, source=_MANN)] = 3.48e5
+    b1: Annotated[float, Number("1", -0.5, 0.5, source=_MANN)] = 5.00e-3
+    b2: Annotated[float, Number("1/K", -1e-3, 2e-3, source=_MANN)] = -1.83e-5
+
+
+@dataclass(frozen=True, kw_only=True)
+class PolyalphaolefinModulus(ModulusLaw, name="modulus_pao"):
+    """That of a polyalphaolefin."""
+
+    a1: Annotated[float, Number("Pa", -2e8, 2e8, source=_MANN)] = -5.73e7
+    a2: Annotated[float, Number("Pa/K", 1e4, 2e6, source=_MANN)] = 3.90e5
+    b1: Annotated[float, Number("1", -0.5, 0.5, source=_MANN)] = -39.50e-3
+    b2: Annotated[float, Number("1/K", -1e-3, 2e-3, source=_MANN)] = 23.54e-5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fva3Modulus(ModulusLaw, name="modulus_fva_3"):
+    """That of the paraffinic reference oil FVA 3."""
+
+    a1: Annotated[float, Number("Pa", -2e8, 2e8, source=_FVA)] = -4.8789e7
+    a2: Annotated[float, Number("Pa/K", 1e4, 2e6, source=_FVA)] = 2.9862e5
+    b1: Annotated[float, Number("1", -0.5, 0.5, source=_FVA)] = -77.840e-3
+    b2: Annotated[float, Number("1/K", -1e-3, 2e-3, source=_FVA)] = 30.115e-5
