@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from os.path import isfile
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from gearlube_core.arrays import Array
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError
 from gearlube_core.input_file.field_notes import Declared, OneOf, Usual
 from gearlube_core.input_file.field_units import field_unit
-from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, toml_data
+from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, Section, toml_data
 from gearlube_core.oil.base_oils import BASE_OILS
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
 from gearlube_core.oil.pressure_coefficients import AlphaIs
+from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
+from gearlube_core.oil.viscometer import fit_pressure_factor
+from gearlube_core.oil.walther_1931 import walther_kinematic_viscosity
+from gearlube_core.units import celsius_to_kelvin
 
 FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
 
@@ -80,6 +87,8 @@ HighestTemperature = Annotated[
 Index = Annotated[float, Field(ge=0.0, le=400.0, allow_inf_nan=False)]
 DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False), Usual(-1.2, -0.3)]
 Factor = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
+PointPressure = Annotated[float, Field(ge=0.0, le=5.0, allow_inf_nan=False)]
+PointViscosity = Annotated[float, Field(ge=1e-4, le=1e12, allow_inf_nan=False)]
 Limit = Annotated[float, Field(ge=0.005, le=0.3, allow_inf_nan=False)]
 
 _ORIGINS: dict[str, Origin] = {
@@ -139,6 +148,38 @@ class DescribedOil:
         return tuple(note for note in self.inputs if note.origin != "given")
 
 
+class Viscometer(Section):
+    """Viscosities that were measured under pressure, one number of each list by point."""
+
+    pressure_gpa: tuple[PointPressure, ...] = Field(
+        strict=False, description="Gauge pressure; points at 0 are the viscosity without pressure"
+    )
+    temperature_degc: tuple[Temperature, ...] = Field(strict=False, description="Temperature")
+    viscosity_pa_s: tuple[PointViscosity, ...] = Field(
+        strict=False, description="Dynamic viscosity"
+    )
+
+    @model_validator(mode="after")
+    def _check_lengths(self) -> Viscometer:
+        counts = [len(self.pressure_gpa), len(self.temperature_degc), len(self.viscosity_pa_s)]
+        if len(set(counts)) > 1:
+            raise ValueError(
+                "pressure_gpa, temperature_degc and viscosity_pa_s must have one number for each "
+                f"point, got {counts[0]}, {counts[1]} and {counts[2]}"
+            )
+        return self
+
+    def points(self) -> Array:
+        """Return pressure [Pa], temperature [K] and viscosity [Pa s] of each point."""
+        return np.column_stack(
+            [
+                1e9 * np.array(self.pressure_gpa),
+                [celsius_to_kelvin(one) for one in self.temperature_degc],
+                self.viscosity_pa_s,
+            ]
+        )
+
+
 class OilFile(InputFile):
     """An oil as its data sheet describes it.
 
@@ -178,6 +219,10 @@ class OilFile(InputFile):
     alpha_is: AlphaMeaning = None
     alpha_pressure_gpa: AlphaPressure = None
     alpha_temperature_degc: AlphaTemperature = None
+    viscometer: Viscometer | None = Field(
+        default=None,
+        description="Viscosities under pressure; alpha and the viscosity law follow from them",
+    )
     alpha_factor: Factor | None = Field(
         default=None,
         description="Uncertainty factor of alpha: it lies between alpha / factor and alpha * "
@@ -231,6 +276,12 @@ class OilFile(InputFile):
                 f"viscosity must fall with temperature, got {cold:g} mm2/s at 40 degC and {hot:g} "
                 "mm2/s at 100 degC. Are they swapped?"
             )
+        known = {"alpha_per_gpa": self.alpha_per_gpa, "viscosity_law": self.viscosity_law}
+        twice = [key for key, value in known.items() if value is not None]
+        if self.viscometer is not None and twice:
+            raise ValueError(
+                f"{' and '.join(twice)} must be left out with viscometer, from which they follow"
+            )
         try:
             self.described()
         except ParameterError as reason:
@@ -245,31 +296,55 @@ class OilFile(InputFile):
             density_law=(DensityLaw, self.density_law),
             shear_law=(ShearLaw, self.shear_law),
         )
-        given = self.model_dump(exclude_none=True, exclude={*laws, "law_numbers"})
+        given = self.model_dump(exclude_none=True, exclude={*laws, "law_numbers", "viscometer"})
         own = laws.get("viscosity_law")
         if own is not None and not own.formulas_know:
             given.setdefault("alpha_is", "slope")
-        values: SheetValues = sheet_values(given)
         notes = [InputNote(field, law.name, "", "given", "") for field, law in laws.items()]
-        if "viscosity_law" not in laws:
-            law, why = BASE_OILS[self.base_oil].viscosity_law
-            laws["viscosity_law"] = ViscosityLaw.kind.named("viscosity_law", law, {})
-            notes.append(InputNote("viscosity_law", law, "", "assumed", why))
+        if own is None:
+            shape, why = BASE_OILS[self.base_oil].viscosity_law
+            own = ViscosityLaw.kind.named("viscosity_law", shape, {})
+            origin: Origin = "assumed"
+            if self.viscometer is not None:
+                own, alpha, why = self._measured(sheet_values(given).data, own)
+                given |= {"alpha_per_gpa": 1e9 * alpha, "alpha_is": "film"}
+                origin = "inferred"
+            laws["viscosity_law"] = own
+            notes.append(InputNote("viscosity_law", own.name, "", origin, why))
+        values: SheetValues = sheet_values(given)
         for law in laws.values():
-            notes += law.notes("law_numbers.", self.law_numbers or {})
+            numbers = law.notes("law_numbers.", self.law_numbers or {})
+            if law is own and self.viscometer is not None:
+                numbers = [one._replace(origin="inferred", why="viscometer") for one in numbers]
+            notes += numbers
         return DescribedOil(
             name=self.name,
             source=self.source or "",
             lubricant=Lubricant(
                 name=self.name,
                 source=self.source or "an oil file",
-                alpha_is=values.alpha_is,
                 **(values.data | laws),
             ),
             inputs=(*values.notes, *notes),
             limiting_coefficient=values.limiting_coefficient,
             density_slope=values.density_slope,
         )
+
+    def _measured(
+        self, data: Mapping[str, Any], like: ViscosityLaw
+    ) -> tuple[ViscosityLaw, float, str]:
+        """Return the law of the measured points, its alpha [1/Pa], and how well it meets them."""
+        assert self.viscometer is not None
+        line, density = (data["walther_a"], data["walther_b"]), data["density"]
+        fitted = fit_pressure_factor(
+            self.viscometer.points(),
+            lambda T: density * walther_kinematic_viscosity(*line, T),
+            PressureFactor(**like.numbers),
+        )
+        numbers = fitted.factor._asdict()
+        law = ViscosityLaw.kind.named("viscometer", "modulus", numbers)
+        alpha = film_coefficient(*modulus_at(fitted.factor, data["alpha_temperature"]))
+        return law, alpha, f"viscometer, {100.0 * fitted.rms:.2g} % rms"
 
 
 def described_library_oil(name: str) -> DescribedOil:

@@ -175,8 +175,7 @@ def secant_coefficient(base_oil: str, nu: float) -> float:
 class SheetValues(NamedTuple):
     """Fields of `Lubricant` in SI units, notes on them, and what a lubricant does not hold."""
 
-    data: dict[str, float]
-    alpha_is: AlphaIs
+    data: dict[str, Any]
     notes: list[InputNote]
     limiting_coefficient: float
     density_slope: float
@@ -287,11 +286,12 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
     )
     low = notes.value("temperature_low_degc", 0.0, "assumed", "as of the library's oils")
     high = notes.value("temperature_high_degc", 150.0, "assumed", "as of the library's oils")
-    data = {
+    data: dict[str, Any] = {
         "walther_a": A,
         "walther_b": B,
         "density": density,
         "alpha": alpha,
+        "alpha_is": alpha_is,
         "alpha_temperature": alpha_kelvin,
         "alpha_pressure": to,
         "alpha_factor": alpha_factor,
@@ -306,7 +306,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "temperature_low": celsius_to_kelvin(low),
         "temperature_high": celsius_to_kelvin(high),
     }
-    return SheetValues(data, alpha_is, notes.notes, limit, slope)
+    return SheetValues(data, notes.notes, limit, slope)
 
 
 def _viscosities(notes: _Notes) -> tuple[float, float]:
