@@ -20,6 +20,8 @@ from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.oil_file import (
     Alpha,
+    AlphaMeaning,
+    AlphaPressure,
     AlphaTemperature,
     BoundaryFriction,
     Density,
@@ -188,6 +190,8 @@ class OilSection(ModelSection):
         default=None, description="Density, taken as constant at all temperatures"
     )
     alpha_per_gpa: Alpha = None
+    alpha_is: AlphaMeaning = None
+    alpha_pressure_gpa: AlphaPressure = None
     alpha_temperature_degc: AlphaTemperature = None
     eyring_stress_mpa: EyringStress = None
     limiting_shear_stress_mpa: ShearStrength = None
@@ -250,6 +254,8 @@ class OilSection(ModelSection):
         if self.is_shipped:
             return base
         changes = self.changes(base) | {"name": f"own oil, rest as {base.name}"}
+        if self.has("alpha_per_gpa"):
+            changes.setdefault("alpha_is", "film")  # a number without a name
         if self.has(_SHEET[0]):
             # the line alone: other data may not fit together before all are changed
             line = base.with_two_viscosities(
