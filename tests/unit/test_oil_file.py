@@ -71,7 +71,11 @@ def test_what_the_file_gives_is_given_and_the_rest_is_not(tmp_path):
     assert full.lubricant.eyring_stress == pytest.approx(5.5e6)
     named = {note.field for note in full.inputs}
     factor = {f"law_numbers.{one}" for one in ("a1", "a2", "b1", "b2")}
-    fields = {one for one in OilFile.model_fields if "law" not in one} - {"name", "source", "viscometer"}
+    fields = {one for one in OilFile.model_fields if "law" not in one} - {
+        "name",
+        "source",
+        "viscometer",
+    }
     assert named == fields | factor | {"viscosity_law"}
     newtonian = gl.read_oil(written(tmp_path, shear_law="newtonian"))
     assert origins(newtonian)["shear_law"] == "given"
