@@ -128,6 +128,7 @@ def state_of(c: FilmContact) -> LubricantState:
         c.conductivity,
         c.temperature,
         c.heat_capacity,
+        c.alpha,
     )
 
 

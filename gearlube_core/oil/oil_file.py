@@ -56,6 +56,7 @@ AlphaMeaning = Annotated[
 AlphaPressure = Annotated[
     float | None,
     _oil("alpha_pressure_gpa"),
+    Usual(0.1, 0.5),
     Field(description="Pressure to which a mean slope goes"),
 ]
 AlphaTemperature = Annotated[
@@ -87,8 +88,8 @@ HighestTemperature = Annotated[
 Index = Annotated[float, Field(ge=0.0, le=400.0, allow_inf_nan=False)]
 DensitySlope = Annotated[float, Field(ge=-2.0, le=0.0, allow_inf_nan=False), Usual(-1.2, -0.3)]
 Factor = Annotated[float, Field(ge=1.0, le=10.0, allow_inf_nan=False)]
-PointPressure = Annotated[float, Field(ge=0.0, le=5.0, allow_inf_nan=False)]
-PointViscosity = Annotated[float, Field(ge=1e-4, le=1e12, allow_inf_nan=False)]
+PointPressure = Annotated[float, Field(ge=0.0, le=5.0, allow_inf_nan=False), Usual(0.0, 2.0)]
+PointViscosity = Annotated[float, Field(ge=1e-4, le=1e12, allow_inf_nan=False), Usual(1e-3, 1e9)]
 Limit = Annotated[float, Field(ge=0.005, le=0.3, allow_inf_nan=False)]
 
 _ORIGINS: dict[str, Origin] = {

@@ -28,7 +28,7 @@ from tests.helpers.each import each
 
 MODULUS = 115e9  # E* [Pa]
 R_X, LOAD, SPEED = 0.015, 2500.0, 3.0
-OIL = LubricantState(0.03, 1.9e-8, 0.04, 3.5e-5, 3e6, 0.0, 0.07, 0.14, 350.0, 1.74e6)
+OIL = LubricantState(0.03, 1.9e-8, 0.04, 3.5e-5, 3e6, 0.0, 0.07, 0.14, 350.0, 1.74e6, 1.9e-8)
 COLD = OIL._replace(conductivity=1e12)  # no inlet heating
 ROLLING = replace(mohammadpour_2015_axle(), rolling="biboulet_houpert_2010")
 PINION_SPEED, OIL_TEMPERATURE = 150.0, 333.15

@@ -12,7 +12,9 @@ from tests.helpers.own_process import INTERPRETED, report_of
 
 def test_one_file_makes_the_law_known_to_oil_files_case_files_and_python():
     found = report_of("oil_with_own_law", **INTERPRETED)
-    assert "viscosity_law must be a text, barus or roelands or houpert, got" in found["before"]
+    assert (
+        "viscosity_law must be a text, barus or roelands or houpert or modulus" in found["before"]
+    )
     films = found["films"]
     for name, q in (("oil file", Q), ("case with the oil file", Q), ("case", Q), ("python", 16.0)):
         *ratios, alpha = films[name]

@@ -46,6 +46,8 @@ NUMBERS = {
     "oil.name": ("karagiannis_2012", "axle.oil.name", "karagiannis_2012"),
     "oil.density_kg_m3": (900.0, "axle.oil.density", 900.0),
     "oil.alpha_per_gpa": (18.5, "axle.oil.alpha", 18.5e-9),
+    "oil.alpha_is": ("mean", "axle.oil.alpha_is", "mean"),
+    "oil.alpha_pressure_gpa": (0.3, "axle.oil.alpha_pressure", 3e8),
     "oil.alpha_temperature_degc": (40.0, "axle.oil.alpha_temperature", 313.15),
     "oil.eyring_stress_mpa": (5.5, "axle.oil.eyring_stress", 5.5e6),
     "oil.limiting_shear_stress_mpa": (3.5, "axle.oil.limiting_shear_stress", 3.5e6),
@@ -194,6 +196,8 @@ def test_a_field_sets_its_number_of_the_model_and_reaches_the_kernels(field):
     value, place, expected = NUMBERS[field]
     # a loss factor acts with modal damping alone
     beside = {"gear_set.mesh_damping": "modal"} if field.endswith("modal_loss_factor") else {}
+    # the pressure of a mean slope, with a mean slope alone
+    beside |= {"oil.alpha_is": "mean"} if field == "oil.alpha_pressure_gpa" else {}
     made = car_axle(beside | {field: value})
     found = reduce(getattr, place.split("."), made)
     if isinstance(expected, float):

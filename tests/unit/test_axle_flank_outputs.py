@@ -16,7 +16,7 @@ from gearlube_core.friction.flank_film import NO_MODEL_FILM, BoundedFlank
 from gearlube_core.oil.lubricant import LubricantState
 from tests.helpers.source_of import source_of
 
-OIL = LubricantState(0.02, 1.8e-8, 0.04, 2.5e-5, 3e6, 0.0, 0.07, 0.14, 350.0, 1.74e6)
+OIL = LubricantState(0.02, 1.8e-8, 0.04, 2.5e-5, 3e6, 0.0, 0.07, 0.14, 350.0, 1.74e6, 1.8e-8)
 OIL_TEMPERATURE = 350.0
 FORCE = -2000.0  # N, on the coast flanks
 SHARES = np.array([0.3, 0.0, 0.7])

@@ -20,7 +20,7 @@ from gearlube_core.friction.flank_laws import FORMULA, SOLVED
 from gearlube_core.oil.lubricant import LubricantState
 from tests.helpers.source_of import interpret, source_of
 
-OIL = LubricantState(0.03, 2.1e-8, 0.045, 3.5e-5, 4e6, 0.0, 0.07, 0.15, 350.0, 1.74e6)
+OIL = LubricantState(0.03, 2.1e-8, 0.045, 3.5e-5, 4e6, 0.0, 0.07, 0.15, 350.0, 1.74e6, 2.1e-8)
 HOT, SIGMA, MODULUS = 350.0, 4e-7, 1.15e11  # K, m, E* in Pa
 LINES, FIRST, PHASE = 3, 5, 7.4  # line i has the place (7 - i) mod 3
 RNG = np.random.default_rng(6)

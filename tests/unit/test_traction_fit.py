@@ -23,7 +23,8 @@ from gearlube_core.friction.traction_measurements import (
 from gearlube_core.oil.lubricant import lubricant_state
 from tests.helpers.each import each
 
-OIL = gl.read_oil("fva_3").lubricant
+# with the viscosity law of the friction formula's source
+OIL = replace(gl.read_oil("fva_3").lubricant, viscosity_law=None)
 RADIUS = 0.01  # m
 PLACE = {"contact": "point", "radius": RADIUS}
 HEAD = "slide_roll_ratio,entrainment_speed_m_s,hertz_pressure_gpa,temperature_degc"

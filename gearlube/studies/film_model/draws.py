@@ -51,7 +51,7 @@ def widened(box: Box, oils: Sequence[Lubricant]) -> Box:
             log_ratio = math.log(state.eta0 / ROELANDS_KAPPA)
             found = {
                 "viscosity [Pa s]": state.eta0,
-                "Roelands Z": state.alpha / (ROELANDS_PRESSURE * log_ratio),
+                "Roelands Z": state.slope / (ROELANDS_PRESSURE * log_ratio),
                 "Houpert S0": state.beta * (temperature - GLASS_TEMPERATURE) / log_ratio,
                 "conductivity [W/(m K)]": state.conductivity,
                 "heat capacity [MJ/(m3 K)]": 1e-6 * oil.density * oil.heat_capacity,
@@ -117,7 +117,7 @@ def oil_of_library(oil: Lubricant, temperature: float, tau0: float) -> dict[str,
     state = oil.state(temperature)
     return {
         "eta0": state.eta0,
-        "alpha": state.alpha,
+        "alpha": state.slope,
         "beta": state.beta,
         "tau0": tau0,
         "temperature": temperature,

@@ -190,7 +190,7 @@ def flank_contact_of(
         (float(sliding[0]), float(sliding[1])),
         (
             state.eta0,
-            state.alpha,
+            state.slope,
             state.beta,
             tau0,
             state.conductivity,
