@@ -254,8 +254,6 @@ class OilSection(ModelSection):
         if self.is_shipped:
             return base
         changes = self.changes(base) | {"name": f"own oil, rest as {base.name}"}
-        if self.has("alpha_per_gpa"):
-            changes.setdefault("alpha_is", "film")  # a number without a name
         if self.has(_SHEET[0]):
             # the line alone: other data may not fit together before all are changed
             line = base.with_two_viscosities(
