@@ -141,9 +141,8 @@ def test_both_sides_of_a_bearing_or_motor_cannot_be_of_one_shaft(between: Elemen
 
 
 def test_an_unknown_node_lists_those_that_a_user_can_name():
-    with pytest.raises(
-        ParameterError, match=r"There are: rotor, rotor\.left, rotor\.right(, ground)?\.$"
-    ):
+    words = r"There are: rotor, rotor\.left, rotor\.right(, ground)?\. Is it rotor\.left\?$"
+    with pytest.raises(ParameterError, match=words):
         Train([ROTOR], [Port(name="motor", body="rotor.lft")], OIL)
 
 
