@@ -39,7 +39,8 @@ from gearlube_core.oil.base_oils import (
     GIVEN_LIMIT_FACTOR,
     MEASURED_ALPHA_FACTOR,
 )
-from gearlube_core.oil.lubricant import lubricant_names, lubricant_state
+from gearlube_core.oil.lubricant import lubricant_names
+from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.oil_file import OilFile, read_oil
 
 # a page and its model, or those of its chapters "## Fields" in their order

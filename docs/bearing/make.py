@@ -24,7 +24,8 @@ from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.oil.film_oil_data import film_oil_of
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 FILE = BearingFile.named("wingertszahn_2023")

@@ -29,7 +29,8 @@ from gearlube_core.friction.solved_line import (
 )
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 

@@ -26,7 +26,7 @@ from gearlube_core.friction.flank_data import FlankState, contact_geometry
 from gearlube_core.friction.flank_laws import FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP, Consistent
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.oil.oil_file import read_oil
 
 TABLE = Path(__file__).with_name("outside.csv")

@@ -28,7 +28,8 @@ from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_film import FlankEllipse, flank_film_model
 from gearlube_core.friction.flank_laws import SOLVED, Consistent
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
-from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY, ROELANDS_PRESSURE
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 

@@ -36,7 +36,7 @@ from gearlube_core.film_model.solved_film import solved_film
 from gearlube_core.friction.flank_data import contact_geometry
 from gearlube_core.friction.flank_laws import Consistent
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import kmh_to_ms
 

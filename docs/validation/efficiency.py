@@ -19,7 +19,8 @@ from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PRESSURE, SHARE, Pack
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import TABLE
 from gearlube_core.friction.flank_data import PRINTED_TRACTION
 from gearlube_core.friction.flank_laws import MixedFlankFriction
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.units import kmh_to_ms
 
 SPEEDS = (20.0, 60.0, 100.0)  # km/h

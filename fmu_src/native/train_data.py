@@ -23,7 +23,7 @@ from gearlube_core.kernels.checked_numbers import is_whole
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import FORMULA_LAWS
-from gearlube_core.oil.lubricant import LubricantParameters, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantParameters, lubricant_state
 
 
 class TrainPlaces(NamedTuple):

@@ -32,7 +32,7 @@ from gearlube_core.bearings.losses.laws import PALMGREN
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.part import Kind, Part
 
 N_EXPANSION = 25  # largest number of floats in the expansion of the forces on one shaft

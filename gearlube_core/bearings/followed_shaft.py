@@ -32,7 +32,7 @@ from gearlube_core.bearings.losses.laws import PALMGREN as PALMGREN_LAW
 from gearlube_core.bearings.losses.laws import ROLLING, ROLLING_LAWS, SKF, number_at
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _BY_ROLLING = {one.in_axle: one.name for one in ROLLING if one.in_axle}
 # what `bearings.losses.laws` calls them

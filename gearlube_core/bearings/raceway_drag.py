@@ -23,7 +23,7 @@ from gearlube_core.bearings.roller_contact import (
 )
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class SteadyRollers(NamedTuple):

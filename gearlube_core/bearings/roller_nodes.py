@@ -30,7 +30,7 @@ from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model import net
 from gearlube_core.film_model.groups import FilmInlet
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _SPEED, _OIL, _FIRST = 0, 1, 2  # rolling speed [m/s] and oil temperature [K] of then; first node
 _KNOWN, _FORCE, _FILM, _OUTSIDE, _FORCE_BOUND, _FILM_BOUND, _OVER_FORCE, _OVER_FILM = range(8)

@@ -39,7 +39,7 @@ from gearlube_core.bearings.shaft_expansion import (
 )
 from gearlube_core.film.point_film import film_geometry
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _NEWTON_STEPS = 4  # to 1e-15 of the half cone for rollers that fit
 

@@ -10,7 +10,7 @@ from gearlube_core.film.point_film import central_film_thickness
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR, mixed_friction
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 LOAD_FLOOR = 1.0e-3  # N, film and pressure of an unloaded flank are those at this floor
 

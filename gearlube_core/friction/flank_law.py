@@ -16,7 +16,7 @@ from gearlube_core.friction.flank_data import ContactGeometry, FlankState
 from gearlube_core.friction.flank_film import NO_MODEL_FILM, BoundedFlank, FlankEllipse, ModelFilm
 from gearlube_core.kernels.by_class import by_class
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class FlankLaw(Protocol):

@@ -35,7 +35,7 @@ from gearlube_core.friction.mixed_friction import (
     friction_with_asperities,
 )
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
 # with at least 0.1 GPa, see docs/film_model/outside.py. Of the film, relative to the formula's; and

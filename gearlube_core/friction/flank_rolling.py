@@ -10,7 +10,7 @@ from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 FlankRolling = Literal["none", "biboulet_houpert_2010"]
 FLANK_ROLLING_LAWS: tuple[str, ...] = get_args(FlankRolling)

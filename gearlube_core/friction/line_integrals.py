@@ -18,7 +18,8 @@ from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
 from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import Lubricant, LubricantState
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _QUANTITIES = 10
 

@@ -26,7 +26,7 @@ from gearlube_core.helical_geometry.contact_line import (
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 LINE_LOAD_FLOOR = 1.0  # N/m, film and pressure of an unloaded line are those at this floor
 # Round source with the mean rise of a resting strip of length 200 half widths b: radius 4.7 b.

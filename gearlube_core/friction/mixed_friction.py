@@ -30,7 +30,7 @@ from gearlube_core.friction.flank_data import AS_PRINTED, PRINTED_TRACTION, ZHOU
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 from gearlube_core.oil.formula_laws import bounded_stress, mean_slope
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 SPEED_FLOOR = 1.0e-6  # m/s, film and heat of a resting contact are those at this floor
 BOUNDARY_SPEED = 1.0e-3  # m/s, boundary friction builds up over this sliding speed

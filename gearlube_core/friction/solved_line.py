@@ -30,7 +30,7 @@ from gearlube_core.friction.mixed_friction import (
 )
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import has_own_law
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
 # with at least 0.1 GPa, see docs/film_model/outside_line.py. Of the film, over that of the formula;

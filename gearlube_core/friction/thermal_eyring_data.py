@@ -11,7 +11,7 @@ from gearlube_core.film.grubin_1949 import grubin_convention, grubin_geometry
 from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.houpert_1985 import HoupertParameters, houpert_log_viscosity
-from gearlube_core.oil.lubricant import LubricantParameters
+from gearlube_core.oil.lubricant_state import LubricantParameters
 
 INLET, EFFECTIVE, INLET_SHEAR_HEATING = 0.0, 1.0, 2.0
 FILM_TEMPERATURES = {

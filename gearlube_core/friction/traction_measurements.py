@@ -24,7 +24,7 @@ from gearlube_core.friction.evans_johnson_1986 import (
 )
 from gearlube_core.input_file.table import Table, read_table
 from gearlube_core.oil.formula_laws import mean_slope
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.units import celsius_to_kelvin
 
 CONTACTS = ("point", "line")

@@ -5,24 +5,27 @@ from __future__ import annotations
 from dataclasses import MISSING, dataclass, fields, replace
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 from gearlube_core.checks import check_finite, check_positive, check_within
 from gearlube_core.errors import ParameterError
-from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Positive, check_fields
 from gearlube_core.oil.film_laws import log_viscosity, roelands
 from gearlube_core.oil.formula_laws import (
     FORMULA_LAWS,
     OilLaws,
     OverAlpha,
-    law_at,
 )
 from gearlube_core.oil.library import (
     LIBRARY_PATH,
     LOWEST_VISCOSITY,
     lubricant_data,
     read_library,
+)
+from gearlube_core.oil.lubricant_state import (
+    LubricantParameters,
+    LubricantState,
+    lubricant_state,
 )
 from gearlube_core.oil.pressure_coefficients import (
     MEAN_PRESSURE,
@@ -40,7 +43,6 @@ from gearlube_core.oil.roelands_1966 import pressure_viscosity_coefficient, roel
 from gearlube_core.oil.walther_1931 import (
     walther_coefficients,
     walther_kinematic_viscosity,
-    walther_viscosity,
 )
 from gearlube_core.part import Part
 
@@ -55,24 +57,6 @@ _SLOPE_TOLERANCE = 1e-3  # of alpha; the constants of Roelands in use differ by 
 def _roelands_slope(eta0: float, alpha: float, alpha_is: AlphaIs, to: float) -> float:
     """Return the slope [1/Pa] of the law of Roelands that has a coefficient [1/Pa]."""
     return slope_for(lambda slope: roelands(eta0, slope), alpha, alpha_is, to)
-
-
-class LubricantParameters(NamedTuple):
-    """What the kernels need to know of a lubricant; all floats, SI."""
-
-    walther_a: float  # [-]
-    walther_b: float  # [-]
-    density: float  # [kg/m3]
-    roelands_z: float  # [-]
-    alpha_share: float  # alpha of films over the slope of ln eta by Roelands [-]
-    tau0: float  # Eyring stress [Pa]
-    tau_l0: float  # limiting shear stress at zero pressure [Pa]
-    gamma: float  # boundary friction: slope of limiting shear stress with pressure [-]
-    conductivity: float  # at conductivity_temperature [W/(m K)]
-    conductivity_temperature: float  # [K]
-    conductivity_slope: float  # [W/(m K2)]
-    heat_capacity: float  # [J/(kg K)]
-    factor: PressureFactor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -358,78 +342,3 @@ def lubricant_names() -> tuple[str, ...]:
     ('fva_3', 'fva_3a', 'arana_2019_m100', 'arana_2019_n100')
     """
     return tuple(read_library())
-
-
-class LubricantState(NamedTuple):
-    """Properties of a lubricant at one temperature and atmospheric pressure."""
-
-    eta0: float  # dynamic viscosity [Pa s]
-    alpha: float  # pressure-viscosity coefficient of films [1/Pa]
-    beta: float  # -d ln eta0 / dT [1/K]
-    nu: float  # kinematic viscosity [m2/s]
-    tau0: float  # Eyring stress [Pa]
-    tau_l0: float  # limiting shear stress at zero pressure [Pa]
-    gamma: float  # boundary friction [-]
-    conductivity: float  # [W/(m K)]
-    temperature: float  # of the oil [K]
-    volume_heat: float  # heat capacity by volume [J/(m3 K)]
-    slope: float  # of ln eta at ambient pressure by Roelands, with the same alpha [1/Pa]
-    modulus: float = 0.0  # A of the pressure factor [Pa]; 0: the law of each formula
-    modulus_slope: float = 0.0  # B [-]
-    viscosity: Any = FORMULA_LAWS.viscosity  # law over pressure, see `formula_laws`
-    shear: Any = FORMULA_LAWS.shear  # law of shear, likewise
-
-
-@kernel
-def lubricant_state(
-    parameters: LubricantParameters, temperature: float, laws: OilLaws = FORMULA_LAWS
-) -> LubricantState:
-    """Return the properties of a lubricant at a temperature.
-
-    eta0 = rho nu(T);  alpha = 5.1e-9 s Z (ln eta0 + 9.67) at constant Z and share s, or that of
-    the pressure factor;
-    K = K_ref + dK/dT (T - T_ref)
-
-    Parameters
-    ----------
-    parameters
-        Of one lubricant, from `Lubricant.parameters()`.
-    temperature
-        Absolute oil temperature [K].
-    laws
-        Of the same lubricant, from `Lubricant.own_laws`, if it has any.
-
-    Returns
-    -------
-    LubricantState
-        SI throughout.
-
-    Notes
-    -----
-    Range: the temperature range of the lubricant, not checked here. Density is constant.
-    """
-    nu, beta = walther_viscosity(parameters.walther_a, parameters.walther_b, temperature)
-    eta0 = parameters.density * nu
-    alpha = parameters.alpha_share * pressure_viscosity_coefficient(eta0, parameters.roelands_z)
-    A, B = modulus_at(parameters.factor, temperature)
-    if A > 0.0:
-        alpha = film_coefficient(A, B)
-    offset = temperature - parameters.conductivity_temperature
-    conductivity = parameters.conductivity + parameters.conductivity_slope * offset
-    return LubricantState(
-        eta0,
-        alpha,
-        beta,
-        nu,
-        parameters.tau0,
-        parameters.tau_l0,
-        parameters.gamma,
-        conductivity,
-        temperature,
-        parameters.density * parameters.heat_capacity,
-        alpha / parameters.alpha_share,
-        A,
-        B,
-        law_at(laws.viscosity, eta0, alpha),
-        laws.shear,
-    )

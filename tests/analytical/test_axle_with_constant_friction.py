@@ -10,7 +10,7 @@ from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, OUTPUT_NAMES, moham
 from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshAtLoad, MeshLevels, blend_mesh
 from gearlube_core.dynamics.packed_mesh import ENTRAIN, N_CHANNELS, R_E, pack_mesh
 from gearlube_core.mesh_table.kernels import pair_channels
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.constant_friction import COEFFICIENTS, OIL, SPEED, TORQUE
 from tests.helpers.own_process import INTERPRETED, report_of
 

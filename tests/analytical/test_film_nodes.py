@@ -12,7 +12,7 @@ from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import (
 )
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshMotion
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL, axle_with
 from tests.helpers.each import each
 

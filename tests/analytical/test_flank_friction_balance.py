@@ -24,7 +24,8 @@ from gearlube_core.friction.flank_data import (
 )
 from gearlube_core.friction.flank_laws import PrintedTraction
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED, contact_temperature_rise
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import axle_with
 from tests.helpers.each import each
 from tests.references.hertz_reference import HertzContact

@@ -23,7 +23,7 @@ from gearlube_core.friction.flank_rolling import (
     flank_rolling_force,
     rolling_geometry,
 )
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 from tests.helpers.each import each
 
 MODULUS = 115e9  # E* [Pa]

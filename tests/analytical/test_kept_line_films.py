@@ -27,7 +27,7 @@ from gearlube_core.friction.flank_film import model_inlet
 from gearlube_core.friction.solved_line import line_film, solved_line_friction
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.helical_march_cases import pair_data_of
 from tests.helpers.pair_motions import motion_of
 

@@ -12,7 +12,8 @@ from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import CONSISTENT, FlankState, contact_geometry
 from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LineState, line_friction
 from gearlube_core.friction.mixed_friction import BOUNDARY_SPEED
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.each import each
 
 STEEL = STEEL_MOHAMMADPOUR_2015

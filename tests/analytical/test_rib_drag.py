@@ -21,7 +21,8 @@ from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import (
     mohammadpour_2015_axle,
 )
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.each import each
 
 FVA = Lubricant.named("fva_3")

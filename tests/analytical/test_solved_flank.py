@@ -24,7 +24,8 @@ from gearlube_core.friction.flank_laws import (
     solved_flank_friction,
 )
 from gearlube_core.friction.mixed_friction import FormulaBounds, formula_doubt
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL as AXLE_OIL
 from tests.helpers.axle_cases import operating_point
 from tests.helpers.each import each

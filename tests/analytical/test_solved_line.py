@@ -24,7 +24,8 @@ from gearlube_core.friction.solved_line import (
     solved_line_friction,
 )
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 TEMPERATURE = 353.15
 LUBRICANT = Lubricant.named("mohammadpour_2015")

@@ -34,7 +34,8 @@ from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.film_model.model import FilmModel
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.bearing_32216 import BEARING
 from tests.helpers.each import each
 

@@ -28,7 +28,7 @@ from gearlube_core.dynamics.train.plan import (
     sizes_of,
 )
 from gearlube_core.dynamics.train.shaft import Shaft
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.shafts.section import ShaftSection
 from tests.helpers.frame_model import box_frame, reduced
 from tests.helpers.small_trains import OIL

@@ -6,7 +6,8 @@ import math
 import pytest
 
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.roelands_1966 import roelands_viscosity
 from gearlube_core.oil.walther_1931 import walther_coefficients, walther_viscosity
 from tests.helpers.each import each

@@ -23,7 +23,7 @@ from gearlube_core.bearings.followed_shaft import (
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.state import N_ODE, U_G, U_P, X, gear_motion, pinion_motion
 from gearlube_core.dynamics.hypoid_mesh.step_parts import CONTACT_PARTS, contact_parts
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import (
     OIL,
     axle_with,

@@ -9,7 +9,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.element import RATE, add_wrench
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class _Force(NamedTuple):

@@ -11,7 +11,7 @@ from gearlube_core.dynamics.train.element import RATE, RZ, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, check_fields
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class _Brake(NamedTuple):

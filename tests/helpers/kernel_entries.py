@@ -42,7 +42,8 @@ from gearlube_core.dynamics.train.plan import AT, FIRST_ROW, N_PLACES
 from gearlube_core.errors import StepError
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import (
     OIL,
     axle_with,

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from gearlube_core.bearings.losses.loss import UNCALIBRATED
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.bearing_32216 import MEASURED, loss_at
 from tests.helpers.each import each
 

@@ -11,7 +11,8 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, SolidParameters
 from gearlube_core.friction.flank import flank_friction
 from gearlube_core.friction.flank_data import ContactGeometry, contact_geometry
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
-from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_names, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 
 def _grown(oil: LubricantState, p: float) -> float:

@@ -10,7 +10,8 @@ from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, SolidParameters, solid_parameters
 from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, line_friction
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
-from gearlube_core.oil.lubricant import Lubricant, LubricantState, lubricant_names, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant, lubricant_names
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 
 def _grown(oil: LubricantState, p: float) -> float:

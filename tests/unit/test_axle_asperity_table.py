@@ -26,7 +26,7 @@ from gearlube_core.friction.flank_data import CONSISTENT, contact_geometry
 from gearlube_core.friction.flank_film import FlankEllipse
 from gearlube_core.friction.flank_laws import Consistent
 from gearlube_core.kernels.flat_tuples import flatten
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 RATIOS = np.array([0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0])
 USUAL = SurfaceParameters(0.5e-6, 0.055, 0.001)  # of finished gear flanks

@@ -13,7 +13,7 @@ from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import point_contact_groups
 from gearlube_core.friction.flank_data import FlankState
 from gearlube_core.friction.flank_film import NO_MODEL_FILM, BoundedFlank
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from tests.helpers.source_of import source_of
 
 OIL = LubricantState(0.02, 1.8e-8, 0.04, 2.5e-5, 3e6, 0.0, 0.07, 0.14, 350.0, 1.74e6, 1.8e-8)

@@ -30,7 +30,7 @@ from gearlube_core.dynamics.hypoid_mesh.mesh_at_load import MeshLevels
 from gearlube_core.dynamics.train.march import STIFFNESS, work_size
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.mesh_table.kernels import N_SERIES, N_X, R_P
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import axle_with
 from tests.helpers.each import each
 

@@ -12,7 +12,8 @@ from gearlube_core.bearings.losses import laws
 from gearlube_core.bearings.losses.geometry import Rib
 from gearlube_core.bearings.losses.loss import UNCALIBRATED, LossModel
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.bearing_32216 import BEARING, DEG, loss_at
 from tests.helpers.each import each
 

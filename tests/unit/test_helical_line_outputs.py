@@ -17,7 +17,7 @@ from gearlube_core.dynamics.helical_pair.march.flanks import (
 from gearlube_core.dynamics.ranges import LEAST_FILM_RATIO
 from gearlube_core.film.groups import line_groups
 from gearlube_core.friction.flank_laws import FORMULA, SOLVED
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from tests.helpers.source_of import interpret, source_of
 
 OIL = LubricantState(0.03, 2.1e-8, 0.045, 3.5e-5, 4e6, 0.0, 0.07, 0.15, 350.0, 1.74e6, 2.1e-8)

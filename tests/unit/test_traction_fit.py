@@ -20,7 +20,7 @@ from gearlube_core.friction.traction_measurements import (
     read_traction,
     traction_coefficient,
 )
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.each import each
 
 # with the viscosity law of the friction formula's source

@@ -18,7 +18,8 @@ from gearlube_core.friction import (
 )
 from gearlube_core.kernels.flat_tuples import flatten
 from gearlube_core.oil import eyring_1936
-from gearlube_core.oil.lubricant import Lubricant, lubricant_state
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.each import each
 
 OIL = Lubricant.named("mohammadpour_2015").parameters()

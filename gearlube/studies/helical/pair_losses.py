@@ -24,7 +24,8 @@ from gearlube_core.friction.line_points import LinePoints, line_points, table_li
 from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.oil.lubricant import Lubricant, LubricantState
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
 PARTS_OF_LOSS = ("sliding", "rolling")

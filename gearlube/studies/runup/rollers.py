@@ -14,7 +14,7 @@ from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.roller_loads import roller_loads
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import reference_frequency
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 RINGS = (1, 2, 3, 4)  # bearings as in docs/conventions.md
 _FRAMES_PER_MESH = 4

@@ -32,7 +32,8 @@ from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import ROLLER, FilmModel
-from gearlube_core.oil.lubricant import Lubricant, LubricantState
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # Factors of the error bar, k = 2. A priori 2: the state of lubrication is not known. More where
 # the misfits of measured bearings ask for it, see docs/bearing.md; timken was not compared.

@@ -12,7 +12,7 @@ from gearlube_core.bearings.losses.rolling import hysteresis_power, liebrecht_dr
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_starvation
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class LossParameters(NamedTuple):

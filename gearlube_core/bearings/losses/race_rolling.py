@@ -24,7 +24,7 @@ from gearlube_core.film_model.model import ROLLER, SHIPPED, FilmModel, shipped_m
 from gearlube_core.film_model.rolling import solved_rolling_at
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import has_own_law
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 ROLLER_MODEL = SHIPPED[ROLLER]  # name of the film model in the package
 NO_ROLLER_MODEL = np.empty(0)  # in place of its numbers, for laws without one

@@ -12,7 +12,7 @@ from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import bounded_stress, log_viscosity_under
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # where a file does not say
 RIB_HEIGHT = 0.15  # of the contact above the race, over the roller diameter; assumed

@@ -33,7 +33,7 @@ from gearlube_core.kernels.flat_tuples import (
     tuple_to_array,
 )
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantParameters
+from gearlube_core.oil.lubricant_state import LubricantParameters
 
 N_BEARINGS = 4
 BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c_z

@@ -51,7 +51,7 @@ from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import R_P
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 N_EXTREMES = 7
 _EXTREME_ANGLES = 4  # of a mesh period, where outputs are looked at

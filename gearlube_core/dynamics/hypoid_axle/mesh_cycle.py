@@ -54,7 +54,7 @@ from gearlube_core.dynamics.packed_mesh import N_CHANNELS
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import N_SERIES, N_X, R_P, load_bracket, mesh_series
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 NO_BALANCE = 6  # beside the statuses of `shafts_at_rest`
 # in this order

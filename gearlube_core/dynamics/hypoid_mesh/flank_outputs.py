@@ -18,7 +18,7 @@ from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import mean_slope
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _QUANTITIES = (
     Output("load", "N", "normal load", 1e3, "kN"),

@@ -26,7 +26,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _PAIRS = PAIRS
 # places of what `flank_sum` keeps

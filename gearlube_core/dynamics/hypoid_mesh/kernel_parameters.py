@@ -12,7 +12,7 @@ from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForceConstants, Me
 from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.number import Number
-from gearlube_core.oil.lubricant import LubricantParameters
+from gearlube_core.oil.lubricant_state import LubricantParameters
 
 _INERTIA = Number("kg.m2", 1e-6, 500.0, "1734 kg.mm2 is 1.734e-3 kg m2.")
 _MASS = Number("kg", 0.05, 2000.0, "12 000 g is 12 kg.")

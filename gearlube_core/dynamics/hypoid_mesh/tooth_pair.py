@@ -38,7 +38,7 @@ from gearlube_core.friction.flank_law import FlankLaw, bounded_flank, model_film
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import pair_node
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # how film and traction of the flanks are evaluated: a film model at the contact itself, or
 # interpolated between the nodes of the mesh table

@@ -19,7 +19,7 @@ from gearlube_core.friction.thermal_eyring_data import ThermalEyringOil, Thermal
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import MeshSeries, mesh_series, pair_channels
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 K, DK, R_P, R_G, DE = range(5)  # N/m, N/m per rad, m, m, m per rad
 PAIRS_AT = 5  # N_CHANNELS values of each pair from here, see `packed_mesh`

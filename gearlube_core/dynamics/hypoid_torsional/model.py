@@ -52,7 +52,7 @@ from gearlube_core.friction.thermal_eyring_data import (
 from gearlube_core.mesh_table import kernels as series
 from gearlube_core.mesh_table.kernels import blend_levels, load_bracket
 from gearlube_core.oil.houpert_1985 import houpert_parameters
-from gearlube_core.oil.lubricant import lubricant_state
+from gearlube_core.oil.lubricant_state import lubricant_state
 
 MAX_SPEED = 5e3  # rad/s
 

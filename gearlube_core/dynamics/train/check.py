@@ -39,7 +39,7 @@ from gearlube_core.dynamics.train.plan import (
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.flat_tuples import count_floats
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantParameters, LubricantState
+from gearlube_core.oil.lubricant_state import LubricantParameters, LubricantState
 
 _MOST_BODIES, _MOST = 1000, 2**31 - 1
 _OIL = count_floats(LubricantParameters)

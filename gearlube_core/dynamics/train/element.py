@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, Protocol
 
 from gearlube_core.arrays import Array
 from gearlube_core.kernels.inlining import inside
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 N_COORDINATES = 6

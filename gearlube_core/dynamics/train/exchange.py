@@ -20,7 +20,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # of the coordinates of a body, and of their rates
 _OF_BODY = (*MOVING.values(), TURNING[0])

@@ -53,7 +53,7 @@ from gearlube_core.kernels.dense_rows import (
 )
 from gearlube_core.kernels.exponential_step import phi_functions
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 @kernel

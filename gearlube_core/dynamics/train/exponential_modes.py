@@ -27,7 +27,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.dense_rows import add_times, congruent, semidefinite_root, times
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.symmetric_modes import symmetric_modes
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 Given = tuple[LubricantState, Array, Array, Offsets]  # oil, numbers, memory, plan of a train
 _MOVE = 1e-6  # m and rad, of coordinates on which forces depend linearly

@@ -32,7 +32,7 @@ from gearlube_core.kernels.flat_tuples import tuple_from_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import OilLaws
-from gearlube_core.oil.lubricant import LubricantParameters, LubricantState, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantParameters, LubricantState, lubricant_state
 
 RATES, RENEW, START, ADVANCE, WRITE, ENERGY, STIFFNESS, EXCHANGE, EVENT, SHOW = range(10)
 # statuses of a step, beside OK

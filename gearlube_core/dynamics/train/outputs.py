@@ -15,7 +15,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 IDLE_WORK = 1e-12  # J; no efficiency is stated for less work
 _MEAN = "mean over the last step"

@@ -34,7 +34,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.damped_newton import damped_newton
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.spectral_radius import spectral_radius
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # state, oil, numbers, memory and plan of a train, places in the work space, and that
 Given = tuple[Array, LubricantState, Array, Array, Offsets, Room, Array]

@@ -27,7 +27,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.film_oil_data import film_oil_of
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.units import kelvin_to_celsius
 
 LOADS = ("dynamic", "static")

@@ -37,7 +37,7 @@ from gearlube_core.dynamics.hypoid_mesh.mesh_force import reference_frequency
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.kernels import load_bracket, pair_node
 from gearlube_core.mesh_table.table import PAIRS, TOOTH_UNITS, MeshTable
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset
 from gearlube_core.units import rads_to_rpm

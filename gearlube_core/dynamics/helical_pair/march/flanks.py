@@ -13,7 +13,8 @@ from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.gear_body import BACKLASH
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number
-from gearlube_core.oil.lubricant import LIMITING_SLOPE, LubricantParameters
+from gearlube_core.oil.lubricant import LIMITING_SLOPE
+from gearlube_core.oil.lubricant_state import LubricantParameters
 
 LINES_MAX = 6  # contact lines at once; a total contact ratio above 6 is refused
 POINTS_PER_LINE = 4  # two Gauss points on either side of the pitch line

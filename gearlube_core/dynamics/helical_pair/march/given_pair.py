@@ -18,7 +18,7 @@ from gearlube_core.helical_geometry.contact_line import ContactPlane
 from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantParameters
+from gearlube_core.oil.lubricant_state import LubricantParameters
 
 
 class GivenBody(NamedTuple):

@@ -24,7 +24,7 @@ from gearlube_core.friction.solved_line import BoundedLine
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import mean_slope
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _BOUNDS = (
     Output("film_bound", "1", "bound of the film thickness, relative", 0.05),

@@ -63,7 +63,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.flat_tuples import count_floats, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.kernels.places import place_below
-from gearlube_core.oil.lubricant import LubricantState, lubricant_state
+from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
 # place of MarchConstants.refreshes in the pair data
 REFRESHES_AT = count_floats(FlankConstants) + MarchConstants._fields.index("refreshes") - 1

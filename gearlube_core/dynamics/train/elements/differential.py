@@ -15,7 +15,7 @@ from gearlube_core.dynamics.train.part import Body, Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, constants_of
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _STILL = 1e-9  # rad
 

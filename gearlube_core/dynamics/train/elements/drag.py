@@ -24,7 +24,7 @@ from gearlube_core.dynamics.train.element import RATE, RZ, Listed, W
 from gearlube_core.dynamics.train.part import Element
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 # kernels of both, whose memory is the torque of the present step

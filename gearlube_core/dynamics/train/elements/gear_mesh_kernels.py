@@ -23,7 +23,7 @@ from gearlube_core.dynamics.train.elements.turned_moves import (
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # places of `at` behind both bodies and the carrier
 _ROTATION, _FRICTION, _DAMPING, _STATIONS, _WAVES = range(3, 8)

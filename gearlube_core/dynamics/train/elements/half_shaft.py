@@ -12,7 +12,7 @@ from gearlube_core.dynamics.train.part import AxisPlace, Body, Element
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, constants_of
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _STILL = 1e-9  # rad
 _TOUCH = 1e-6  # rad, deflection at which a spline with play surely touches

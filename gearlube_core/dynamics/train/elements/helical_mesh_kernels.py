@@ -66,7 +66,7 @@ from gearlube_core.kernels.checked_numbers import all_finite, is_whole
 from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # places of `at` behind both bodies, the relative rotation, and both losses
 _PSI, _HEAT, _DAMPING, _KEPT, _PORT, _LEVELS, _SIZE, _DATA, _DATA_SIZE = range(2, 11)

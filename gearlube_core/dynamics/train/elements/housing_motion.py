@@ -26,7 +26,7 @@ from gearlube_core.housings.housing_modes import HousingMotion
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _MOST = 1000  # nodes, or bodies of modes
 # sizes at the end of `at`, behind the first node, the first body of modes and the loss

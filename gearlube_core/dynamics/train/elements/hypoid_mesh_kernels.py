@@ -82,7 +82,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import K_M, R_P, mesh_series
 from gearlube_core.mesh_table.table import PAIRS
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _BOUNDS = len(FLANK_OUTPUTS)  # place of the bounds behind the outputs of the flanks
 _LEAST = 1e-9  # m, deflection

@@ -25,7 +25,7 @@ from gearlube_core.helical_geometry.gear_body import POSITION
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields, constants_of
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _ERROR = Number("m", -1e-2, 1e-2, "20 um is 2e-5 m.", shown="um")
 _ARM = POSITION._replace(shown="mm")

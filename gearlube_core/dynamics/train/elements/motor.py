@@ -16,7 +16,7 @@ from gearlube_core.dynamics.train.ripple_table import RippleTable, skew_factor
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # places of `at` behind rotor and stator
 _LAGGED, _WORK, _GIVEN, _SPEEDS, _TORQUES, _ORDERS = range(2, 8)

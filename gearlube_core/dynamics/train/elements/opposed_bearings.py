@@ -53,7 +53,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # places of `at` behind body, cage, both losses and the bound: what is kept, three axes, size of the
 # film model

@@ -17,7 +17,7 @@ from gearlube_core.helical_geometry.gear_body import MASS
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, constants_of
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 _NEAR = 1e-4  # of a radius, of places that are to be the same
 

@@ -12,7 +12,7 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, check_fields
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class _Port(NamedTuple):

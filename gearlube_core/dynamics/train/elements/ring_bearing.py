@@ -31,7 +31,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.checked_numbers import all_finite, is_whole
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # places in the memory: drag of the present step [N.m], spring of a search of the rest [N/m], gaps
 # of the laminae of a roller

@@ -48,7 +48,7 @@ from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # places of `at` behind body, housing, cage and energies: what is kept, size of the film model
 _KEPT, _FILM = 6, 7

@@ -26,7 +26,7 @@ from gearlube_core.dynamics.train.part import AxisPlace, Element
 from gearlube_core.kernels.checked_numbers import all_finite
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.shafts.free_modes import ShaftMotion
 from gearlube_core.shafts.section import ShaftSection
 

@@ -14,7 +14,7 @@ from gearlube_core.helical_geometry.gear_body import COUPLING, STIFFNESS, TILTIN
 from gearlube_core.kernels.inlining import inside
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number, Output, check_fields, constants_of
-from gearlube_core.oil.lubricant import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState
 
 # of all bearings of a body together, up to 10 m from its centre
 _STIFFNESS, _TILTING = STIFFNESS._replace(high=1e14), TILTING._replace(high=1e16)
