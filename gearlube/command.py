@@ -371,38 +371,16 @@ def _lazy_group(commands: Sequence[LazyCommand]) -> type[TyperGroup]:
 app = command_line(COMMANDS)
 
 
-_COMPILER = "gearlube_core.kernels.dispatcher"
-
-
-class _WarningsOnce(logging.Filter):
-    """Lets each warning pass once; a command may read the same file several times.
-
-    That a kernel is compiled, for which a Python session has no other sign, is no warning here.
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._shown: set[str] = set()
-
-    def filter(self, record: logging.LogRecord) -> bool:
-        if record.name == _COMPILER:
-            record.levelno, record.levelname = logging.INFO, logging.getLevelName(logging.INFO)
-        text = record.getMessage()
-        known = record.levelno == logging.WARNING and text in self._shown
-        self._shown.add(text)
-        return not known
-
-
 def main() -> None:
     """Entry point of the command `gearlube`."""
     # the matrices of most studies are small: threads would wait for each other
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from rich.logging import RichHandler
 
-    from gearlube.cli.exit_codes import console
+    from gearlube.cli.exit_codes import WarningsOnce, console
 
     handler = RichHandler(console=console, show_path=False, show_time=False, markup=False)
-    handler.addFilter(_WarningsOnce())
+    handler.addFilter(WarningsOnce())
     logging.basicConfig(level=logging.WARNING, format="%(message)s", handlers=[handler])
     app()
 

@@ -18,6 +18,26 @@ console = Console(stderr=True, markup=False)
 BAD_ARGUMENT, FAILED, INTERRUPTED = 2, 1, 130
 
 _LOGGER = logging.getLogger("gearlube")
+_COMPILER = "gearlube_core.kernels.dispatcher"
+
+
+class WarningsOnce(logging.Filter):
+    """Lets each warning pass once; a command may read the same file several times.
+
+    That a kernel is compiled, for which a Python session has no other sign, is no warning here.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._shown: set[str] = set()
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        if record.name == _COMPILER:
+            record.levelno, record.levelname = logging.INFO, logging.getLevelName(logging.INFO)
+        text = record.getMessage()
+        known = record.levelno == logging.WARNING and text in self._shown
+        self._shown.add(text)
+        return not known
 
 
 @contextmanager

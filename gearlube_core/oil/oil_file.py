@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from os.path import isfile
@@ -23,10 +22,8 @@ from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
 from gearlube_core.oil.pressure_coefficients import AlphaIs
-from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
-from gearlube_core.oil.viscometer import fit_pressure_factor
-from gearlube_core.oil.walther_1931 import walther_kinematic_viscosity
+from gearlube_core.oil.viscometer import measured_law
 from gearlube_core.units import celsius_to_kelvin
 
 FILE_IN_FMU = "oil.toml"  # among the resources of an FMU
@@ -307,7 +304,8 @@ class OilFile(InputFile):
             own = ViscosityLaw.kind.named("viscosity_law", shape, {})
             origin: Origin = "assumed"
             if self.viscometer is not None:
-                own, alpha, why = self._measured(sheet_values(given).data, own)
+                points = self.viscometer.points()
+                own, alpha, why = measured_law(points, sheet_values(given).data, own)
                 given |= {"alpha_per_gpa": 1e9 * alpha, "alpha_is": "film"}
                 origin = "inferred"
             laws["viscosity_law"] = own
@@ -330,22 +328,6 @@ class OilFile(InputFile):
             limiting_coefficient=values.limiting_coefficient,
             density_slope=values.density_slope,
         )
-
-    def _measured(
-        self, data: Mapping[str, Any], like: ViscosityLaw
-    ) -> tuple[ViscosityLaw, float, str]:
-        """Return the law of the measured points, its alpha [1/Pa], and how well it meets them."""
-        assert self.viscometer is not None
-        line, density = (data["walther_a"], data["walther_b"]), data["density"]
-        fitted = fit_pressure_factor(
-            self.viscometer.points(),
-            lambda T: density * walther_kinematic_viscosity(*line, T),
-            PressureFactor(**like.numbers),
-        )
-        numbers = fitted.factor._asdict()
-        law = ViscosityLaw.kind.named("viscometer", "modulus", numbers)
-        alpha = film_coefficient(*modulus_at(fitted.factor, data["alpha_temperature"]))
-        return law, alpha, f"viscometer, {100.0 * fitted.rms:.2g} % rms"
 
 
 def described_library_oil(name: str) -> DescribedOil:

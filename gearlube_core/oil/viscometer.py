@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
-from gearlube_core.oil.pressure_factor import PressureFactor
+from gearlube_core.oil.named_laws import ViscosityLaw
+from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
+from gearlube_core.oil.walther_1931 import walther_kinematic_viscosity
 
 _LEAST_POINTS = 4
 _ALIKE = 0.5  # K, temperatures of one curve
@@ -98,6 +100,31 @@ def fit_pressure_factor(
             )
     rms = math.sqrt(float(np.mean(found.fun**2)))
     return FittedFactor(factor, rms)
+
+
+def measured_law(
+    points: Array, data: Mapping[str, Any], like: ViscosityLaw
+) -> tuple[ViscosityLaw, float, str]:
+    """Return the law of an oil's measured points, its alpha [1/Pa], and how well it meets them.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 3)
+        As in `fit_pressure_factor`.
+    data
+        Fields of `Lubricant` that the viscosity without pressure needs, and `alpha_temperature`.
+    like
+        Law of the class of base oils.
+    """
+    line, density = (data["walther_a"], data["walther_b"]), data["density"]
+    fitted = fit_pressure_factor(
+        points,
+        lambda T: density * walther_kinematic_viscosity(*line, T),
+        PressureFactor(**like.numbers),
+    )
+    law = ViscosityLaw.kind.named("viscometer", "modulus", fitted.factor._asdict())
+    alpha = film_coefficient(*modulus_at(fitted.factor, data["alpha_temperature"]))
+    return law, alpha, f"viscometer, {100.0 * fitted.rms:.2g} % rms"
 
 
 def _growth(

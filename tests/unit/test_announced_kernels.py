@@ -6,7 +6,7 @@ import logging
 
 import pytest
 
-from gearlube.command import _WarningsOnce
+from gearlube.cli.exit_codes import WarningsOnce
 from gearlube_core.kernels.dispatcher import logger
 from gearlube_core.kernels.jit import announced, kernel
 
@@ -24,6 +24,6 @@ def test_in_a_command_these_words_are_no_warning():
     shown = {}
     for name in (logger.name, "gearlube"):
         record = logging.LogRecord(name, logging.WARNING, "", 0, "words", (), None)
-        _WarningsOnce().filter(record)
+        WarningsOnce().filter(record)
         shown[name] = record.levelname
     assert shown == {logger.name: "INFO", "gearlube": "WARNING"}
