@@ -32,6 +32,7 @@ class WarningsOnce(logging.Filter):
         self._shown: set[str] = set()
 
     def filter(self, record: logging.LogRecord) -> bool:
+        """Return whether a record is shown."""
         if record.name == _COMPILER:
             record.levelno, record.levelname = logging.INFO, logging.getLevelName(logging.INFO)
         text = record.getMessage()
