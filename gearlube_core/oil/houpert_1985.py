@@ -109,7 +109,7 @@ def houpert_parameters(lubricant: Lubricant) -> HoupertParameters:
         _COLD,
         lubricant.dynamic_viscosity(_HOT),
         _HOT,
-        lubricant.alpha,
+        lubricant.roelands_slope,
         lubricant.alpha_temperature,
     )
 

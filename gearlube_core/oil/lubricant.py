@@ -220,10 +220,16 @@ class Lubricant:
     @property
     def roelands_z(self) -> float:
         """Pressure exponent of the Roelands law [-], with the same alpha."""
-        return roelands_exponent(self.dynamic_viscosity(self.alpha_temperature), self._slope())
+        return roelands_exponent(
+            self.dynamic_viscosity(self.alpha_temperature), self.roelands_slope
+        )
 
-    def _slope(self) -> float:
-        """Return the slope of ln eta by Roelands at ambient pressure, at `alpha_temperature`."""
+    @property
+    def roelands_slope(self) -> float:
+        """Slope of ln eta at ambient pressure and `alpha_temperature`, by Roelands [1/Pa].
+
+        His law then has the oil's alpha, or that of films of its pressure factor.
+        """
         factor, T = self.pressure_factor(), float(self.alpha_temperature)
         if factor is not None:
             alpha = film_coefficient(*modulus_at(factor, T))
@@ -326,11 +332,13 @@ class Lubricant:
         """Return alpha of films over the slope by Roelands, at `alpha_temperature` [-]."""
         factor, T = self.pressure_factor(), float(self.alpha_temperature)
         if factor is not None:
-            return film_coefficient(*modulus_at(factor, T)) / self._slope()
+            return film_coefficient(*modulus_at(factor, T)) / self.roelands_slope
         if self.alpha_is == "slope":
             return 1.0  # as the sources of formulas take it
         eta0 = self.dynamic_viscosity(T)
-        return pressure_coefficient(roelands(eta0, self._slope()), "film") / self._slope()
+        return (
+            pressure_coefficient(roelands(eta0, self.roelands_slope), "film") / self.roelands_slope
+        )
 
 
 def lubricant_names() -> tuple[str, ...]:
