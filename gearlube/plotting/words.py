@@ -95,7 +95,7 @@ def source_words(source: str) -> str:
 def largest_losses(
     sources: Iterable[Any], loss: Array, words: Callable[[str], str] = source_words
 ) -> str:
-    """Return the three largest losses and their shares; parts below 0.5 % are not told.
+    """Return the three largest losses and their shares; parts below 0.5 % are left out.
 
     >>> largest_losses(["seals", "churning"], np.array([1.0, 3.0]))
     'churning 75 %, seals 25 %'

@@ -10,7 +10,7 @@ from gearlube.report.numbers import MISSING, number_text
 from gearlube.report.parts import GOOD, NOTE, Column, Figure, Finding, Report, Table
 from gearlube_core.errors import ParameterError
 
-_NAMED = 5  # changes that are told one by one
+_NAMED = 5  # changes that are named one by one
 _SAME = 1e-9  # relative difference of numbers that are equal but for roundings
 _DRAWN = "scatter"
 

@@ -1,4 +1,4 @@
-"""What all studies of drive cycles have: steps and energies, and what a report says of them."""
+"""What all studies of drive cycles have: steps, energies, and findings for a report."""
 
 from __future__ import annotations
 

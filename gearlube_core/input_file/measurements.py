@@ -16,7 +16,7 @@ from gearlube_core.input_file.table import Table, read_table
 
 _RELATIVE = "uncertainty_percent"
 _EFFICIENCY = "efficiency_percent"
-_NAMED = 5  # points that are told one by one
+_NAMED = 5  # points that are named one by one
 
 
 @dataclass(frozen=True, slots=True)

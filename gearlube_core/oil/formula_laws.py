@@ -25,7 +25,7 @@ _HALVINGS = 100  # of a bracket as wide as the Newtonian stress: 1e-30 of it is 
 
 
 class Printed(NamedTuple):
-    """Stands for the law that a formula's source prints, or the pressure factor of the oil."""
+    """The law that a formula's source prints, or the pressure factor of the oil."""
 
     @kernel
     def law_at(self, eta0: float, alpha: float) -> Printed:

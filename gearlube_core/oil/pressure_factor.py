@@ -28,7 +28,7 @@ class PressureFactor(NamedTuple):
         return self._replace(a1=self.a1 / scale, a2=self.a2 / scale)
 
 
-NO_FACTOR = PressureFactor(0.0, 0.0, 0.0, 0.0)  # stands for the law of a formula
+NO_FACTOR = PressureFactor(0.0, 0.0, 0.0, 0.0)  # formulas then use their own law
 
 
 @kernel

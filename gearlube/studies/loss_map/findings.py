@@ -29,7 +29,7 @@ from gearlube.studies.loss_map.sampling import input_words, mean_swings
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER
 
-_NAMED = 3  # uncertain inputs that are told one by one
+_NAMED = 3  # uncertain inputs that are named one by one
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:

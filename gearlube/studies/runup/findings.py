@@ -20,7 +20,7 @@ from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 SWEEP_RATE = 3.6  # z^2 f^2 Hz/s, [iso_7626_2]: 216 z^2 f^2 Hz/min
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
 _MARKED = 3  # mesh orders whose critical speeds are told
-_NAMED = 3  # critical speeds that are told one by one
+_NAMED = 3  # critical speeds that are named one by one
 _NARROW = 0.15  # of a speed: a margin below it is worth a warning
 
 

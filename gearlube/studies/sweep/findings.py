@@ -37,7 +37,7 @@ from gearlube_core.units import ZERO_CELSIUS
 
 NEAR = 0.1  # of a natural frequency, within which an order is said to sit on it
 _CLOSED = 1e-3  # of the input, below which the energy balance is called closed
-_NAMED = 3  # crossings that are told one by one
+_NAMED = 3  # crossings that are named one by one
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
