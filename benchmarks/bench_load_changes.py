@@ -2,7 +2,7 @@
 
 Processor time of an axle at 100 km/h by formulas and by solved films, turn by turn in one process,
 from the same state: under a constant torque, over a tip-in, over a reversal, and under a torque
-that is another one every millisecond, so that almost every node of the flanks is evaluated anew.
+that is another one every millisecond, so that almost every node of the flanks is evaluated again.
 The wheel torque is in balance with the pinion's, so that the speed stays.
 """
 

@@ -44,7 +44,7 @@ SPREADS = {
 
 @dataclass(frozen=True, kw_only=True)
 class WaitingStudy:
-    """Checks of a point of another study, and a wait in the place of its computation."""
+    """Checks of a point of another study, and a wait instead of its computation."""
 
     other: PointStudy
     seconds: float

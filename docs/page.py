@@ -151,7 +151,7 @@ class Page:
             self.paragraph(after, f"{tally(one.verdict for one in found.values() if one)}.")
 
     def paragraph(self, after: str, text: str) -> None:
-        """Put a paragraph or a list in the place of the one that follows the words `after`."""
+        """Put a paragraph or a list instead of the one that follows the words `after`."""
         found = self._only(rf"{_words(after)}\n+((?:.+\n)+)", after)
         self.text = (
             self.text[: found.start(1)] + text.strip("\n") + "\n" + self.text[found.end(1) :]

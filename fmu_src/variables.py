@@ -185,7 +185,7 @@ _LATER_PARAMETERS = (
            *get_args(MeshStiffness), start="tangent", argument="mesh_stiffness"),
 )  # fmt: skip
 
-# ditto; those that an axle file gives too
+# the same; those that an axle file gives too
 _AXLE_NUMBERS = (
     *(_number(f"{word}_mass", f"{name}.mass", f"Mass of the {word} with its shaft and parts",
               start=start, nominal=10.0)

@@ -91,7 +91,7 @@ class Reach:
         return _parts_of(self._words[file])
 
     def is_compiled(self, file: str) -> bool:
-        """Return whether a change of the file has kernels compiled anew."""
+        """Return whether a change of the file has kernels compiled again."""
         waiting, seen = [file], {file}
         while waiting:
             here = waiting.pop()

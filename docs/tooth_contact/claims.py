@@ -22,7 +22,7 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.hypoid_contact.mesh_cycle import SIDES
 
 PINION_INERTIA, GEAR_INERTIA = 1.734e-3, 5.81e-2  # kg m2, Karagiannis 2012, data below fig. 7
-DAMPING, DAMPING_RATIO = 2278.1, 0.03  # N s/m and -, ditto
+DAMPING, DAMPING_RATIO = 2278.1, 0.03  # N s/m and -, the same
 _EDGE_SHARE = 0.15  # below it the pair carries at an edge
 CLAIMS = Claims()
 

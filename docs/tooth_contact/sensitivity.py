@@ -71,7 +71,7 @@ def measured(pair: FlankPair) -> dict[str, float]:
 
 
 def changed_pair(parameter: Parameter, change: float) -> FlankPair:
-    """Return the drive pair with a parameter changed, built anew."""
+    """Return the drive pair with a parameter changed, built again."""
     section, _, key = parameter.name.partition(".")
     if section == "misalignment":
         displaced = replace(ALIGNED, **{key: parameter.value + change})

@@ -54,7 +54,7 @@ def variants() -> list[Variant]:
     def made(name: str, label: str, changes: dict[str, Any], *, anew: bool = False) -> Variant:
         varied = file.varied(changes)
         if anew:
-            varied, label = completed_anew(varied), label + ", blade angles completed anew"
+            varied, label = completed_anew(varied), label + ", blade angles completed again"
             name += "_anew"
         return Variant(name, label, varied)
 

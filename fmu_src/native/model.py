@@ -106,7 +106,7 @@ class NativeModel:
     limits_at : int
         Place in `work` of lowest and highest value of each input, written by START and RESUME.
     ranges_at : int
-        Place in `work` of the `RangeLimits`, ditto.
+        Place in `work` of the `RangeLimits`, the same.
     ranges : tuple of Range
         Words of the ranges, in the order of `RANGE_OUTPUTS` without the first; the limits are
         those in `work`.

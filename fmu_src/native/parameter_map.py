@@ -42,12 +42,12 @@ class AxleSettings(NamedTuple):
     steps_per_mesh_period: float
     steps_per_highest_period: float
     radii: float  # place of the option in `Radii`
-    stiffness: float  # ditto in `MeshStiffness`
-    pressure: float  # ditto in `PRESSURES`
+    stiffness: float  # the same in `MeshStiffness`
+    pressure: float  # the same in `PRESSURES`
     modal: float  # 1 with modal damping of the mesh, 0 with hysteresis
     modal_loss_factor: float
     reference_stiffness: float  # N/m, of the modal damping
-    mean_pinion_radius: float  # m, ditto
+    mean_pinion_radius: float  # m, the same
     solved: float  # 1 with solved films of the flanks
     own_film: float  # 1 if the law of friction has a film that a solved one cannot replace
 

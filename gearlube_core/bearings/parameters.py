@@ -52,14 +52,14 @@ class BearingParameters(NamedTuple):
     mean_diameter: float  # (bore + outside diameter)/2, for the drag [m]
     ring_section: float  # outside diameter less bore [m]
     skf_rolling: float  # R1 of the series in `skf_2013` [-]
-    skf_sliding: float  # S1 ditto [-]
+    skf_sliding: float  # S1 the same [-]
     f0: float  # viscous factor of the drag [-], 0 off
     f1: float  # load factor of the drag [-], 0 off
     axial_factor: float  # 2 Y = 0.8 cot(contact angle), load of the drag over axial load [-]
     roller_length: float  # [m]
     roller_radius: float  # at the middle [m]
     inner_radius: float  # of the inner race there, from the shaft's axis [m]
-    outer_radius: float  # ditto of the outer race [m]
+    outer_radius: float  # the same of the outer race [m]
     reduced_modulus: float  # E' = 2 E* of rollers and races [Pa]
     rib_height: float  # of the contact of roller end and rib above the inner race [m]; 0: no rib
     rib_friction: float  # of the asperities there [-]

@@ -67,7 +67,7 @@ class RollerFilm(NamedTuple):
 
 @kernel
 def roller_film(line_load: float, speed: float, races: Races, film_model: Array) -> RollerFilm:
-    """Return what the film model says of a roller; outside its domain formulas take over.
+    """Return what the film model gives for a roller; outside its domain formulas take over.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ class FlankEllipse(NamedTuple):
 
 
 class ModelFilm(NamedTuple):
-    """What a film model says of a contact; all floats, fit to be interpolated."""
+    """What a film model gives for a contact; all floats, fit to be interpolated."""
 
     log_film: float  # ln of the central film in m
     log_friction: float  # ln of the friction coefficient of the film alone
@@ -128,7 +128,7 @@ def flank_model_film(
     limiting_slope: float,
     film_model: Array,
 ) -> ModelFilm:
-    """Return what the film model says of a flank contact.
+    """Return what the film model gives for a flank contact.
 
     Parameters
     ----------

@@ -75,7 +75,7 @@ def solved_flank_friction(
     load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
         As in `flank.flank_friction`; the form decides about asperities alone.
     film
-        What the film model says of the contact.
+        What the film model gives for the contact.
     film_model : ndarray
         Numbers of the film model, for its bounds.
 
@@ -194,7 +194,7 @@ class MixedFlankFriction(NamedTuple):
         oil: LubricantState,
         film_model: Array,
     ) -> ModelFilm:
-        """Return what the film model says of one flank."""
+        """Return what the film model gives for one flank."""
         return flank_model_film(
             load,
             entrainment_speed,

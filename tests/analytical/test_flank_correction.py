@@ -94,7 +94,7 @@ def test_derivatives_are_those_of_the_removal():
 
 @pytest.mark.parametrize("role", ["pinion", "gear"])
 def test_the_bend_is_that_of_the_removal_over_the_surface(role):
-    """Second differences over points of the cut surface itself, found anew in s and t."""
+    """Second differences over points of the cut surface itself, found again in s and t."""
     flank = Flank.from_file(with_relief(**{role: EVERYTHING}), role, "drive")
     s, t, d = 0.8, 0.75, 0.02
     grid = flank.grid(s + d * np.array([-1.0, 0.0, 1.0]), t + d * np.array([-1.0, 0.0, 1.0]))

@@ -129,7 +129,7 @@ def test_rates_are_those_of_the_contact_on_frozen_cells(rates):
     ],
 )
 def test_rates_are_near_those_of_whole_analyses(rates, k, most):
-    # whole analyses cut strips anew for the changed flanks
+    # whole analyses cut strips again for the changed flanks
     near, far = (analysed(varied(NAMES[k], change)) for change in (0.5, -0.5))
     for name, expected in zip(RATES, near - far, strict=True):
         if name in most:

@@ -94,7 +94,7 @@ def test_energy_is_the_integral_of_torque_over_rotation():
     states = [position.load(float(t), coarse_stiffness(HE_2007), settings) for t in torque]
     rotation = np.array([s.rotation for s in states])
     work = np.trapezoid(torque, rotation)
-    # strips are cut anew for each torque, which moves rotations by some 1e-4 of themselves
+    # strips are cut again for each torque, which moves rotations by some 1e-4 of themselves
     stored = states[-1].strain_energy - states[0].strain_energy
     assert stored == pytest.approx(work, rel=2e-3)
     slope = (torque[3] - torque[1]) / (rotation[3] - rotation[1])

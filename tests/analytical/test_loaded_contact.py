@@ -85,7 +85,7 @@ def test_energy_is_the_integral_of_torque_over_closing():
     states = [position.load(float(t), SOFT_TEETH, LoadedSettings(tolerance=1e-7)) for t in torque]
     rotation = np.array([s.rotation for s in states])
     energy = np.array([s.strain_energy for s in states])
-    # strips are cut anew for each torque, which moves rotations by some 1e-3 of themselves
+    # strips are cut again for each torque, which moves rotations by some 1e-3 of themselves
     work = np.trapezoid(torque, rotation)
     assert energy[-1] - energy[0] == pytest.approx(work, rel=0.02)
 

@@ -90,7 +90,7 @@ def test_rotation_rate_holds_with_cells_free_to_unload(frozen, rates):
 
 def test_rotation_by_axial_displacement_is_axial_force_by_torque(frozen, rates):
     # Maxwell: with the work U* at given torque, d2U*/dT dp is the rotation's rate by p and the rate
-    # by T of the force along p. Strips are cut anew for each torque: 1 %.
+    # by T of the force along p. Strips are cut again for each torque: 1 %.
     pair = frozen.pair
     axis, _ = pair.pinion_axis_placed
     position = MeshPosition.at(pair, PHASE, pairs=1)

@@ -168,7 +168,7 @@ def test_drag_of_raceways_falls_as_the_axle_takes_rollers_out_of_contact():
     ],
 )
 def test_energy_is_kept_and_a_long_step_keeps_the_drag_of_short_ones(law, step):
-    """The drag is anew with the bearing forces, so that its power does not depend on the step."""
+    """The drag is again with the bearing forces, so that its power does not depend on the step."""
     # roller films breathe with the shaft speed without a counter-torque: off here
     made = axle_with_drag(law, film="off")
     axle = HypoidAxle(made)

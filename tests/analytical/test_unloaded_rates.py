@@ -43,7 +43,7 @@ def variations(side):
 
 
 def reference(side, k, quantity):
-    """Return the extrapolated difference of a quantity of pairs built anew."""
+    """Return the extrapolated difference of a quantity of pairs built again."""
     parameter = variations(side).parameters[k]
     return extrapolated(
         lambda change: quantity(

@@ -15,7 +15,7 @@ BIBLIOGRAPHY = (ROOT / "docs" / "bibliography.bib").read_text(encoding="utf-8")
 
 
 def test_every_doi_is_that_of_a_source():
-    """A DOI that is typed anew on a page may have a slip; the one in the bibliography decides."""
+    """A DOI that is typed again on a page may have a slip; the one in the bibliography decides."""
     known = set(re.findall(r"doi = \{(.*)\}", BIBLIOGRAPHY))
     found = {
         doi.rstrip(".)")

@@ -10,7 +10,7 @@ from gearlube_core.hypoid_contact.pair import FlankPair
 
 
 def changed_pair(file, pair, parameter, change):
-    """Return a pair built anew from a gear file or a misalignment with a changed number."""
+    """Return a pair built again from a gear file or a misalignment with a changed number."""
     section, _, key = parameter.name.partition(".")
     value = parameter.value + change
     if section == "misalignment":

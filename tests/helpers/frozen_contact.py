@@ -1,4 +1,4 @@
-"""Loaded cells of a hypoid pair, frozen, and cut anew out of changed flanks."""
+"""Loaded cells of a hypoid pair, frozen, and cut again out of changed flanks."""
 
 from __future__ import annotations
 

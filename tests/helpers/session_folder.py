@@ -28,7 +28,7 @@ def _share_bytecode(folder: str) -> None:
     """Keep the bytecode of imports for all processes of the run, where none is kept otherwise.
 
     With `pip install --no-compile` and PYTHONDONTWRITEBYTECODE every process would compile numpy,
-    scipy and numba anew: 3 s each.
+    scipy and numba again: 3 s each.
     """
     numpy = find_spec("numpy")
     if sys.dont_write_bytecode and numpy and not os.path.exists(numpy.cached or ""):

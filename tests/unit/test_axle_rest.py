@@ -53,7 +53,7 @@ def test_springs_soften_tenfold_from_those_of_a_bearing_and_are_taken_away(monke
     )
     assert status == module.OK
     np.testing.assert_allclose(springs, [0.0, *NEEDED, 0.0], rtol=1e-12)
-    # the first springs start anew, each search after them where the last one ended
+    # the first springs start again, each search after them where the last one ended
     np.testing.assert_allclose(
         [found[0] for found in starts], 1e-6 * np.array([0.0, 0.0, *range(1, 11)]), rtol=1e-12
     )

@@ -245,7 +245,7 @@ def test_the_command_refuses_an_unknown_cycle_and_leaves_no_folder(tmp_path, cap
 
 
 def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
-    """Each draw computed again: the axle changed, its map anew, its sources scaled."""
+    """Each draw computed again: the axle changed, its map again, its sources scaled."""
     from gearlube.studies.drive_cycle.loss_field import at_temperatures, demand_of, losses_along
     from gearlube.studies.drive_cycle.spread import uncertain_inputs
 

@@ -153,7 +153,7 @@ def test_a_file_of_one_s_own_needs_only_macro_geometry(tmp_path):
 
 
 def test_inches_of_the_paper_arrive_in_si():
-    """Sec. 3 of He et al. 2007, converted here anew; the file rounds to the seventh digit."""
+    """Sec. 3 of He et al. 2007, converted here again; the file rounds to the seventh digit."""
     pair = HE.helical_pair()
     printed = {
         "centre_distance": 3.5, "pinion_tip_radius": 0.5 * 3.38, "gear_tip_radius": 0.5 * 4.13,

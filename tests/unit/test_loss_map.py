@@ -348,7 +348,7 @@ def test_the_command_writes_a_map_and_says_what_it_lacks(tmp_path, caplog):
 
 
 def test_a_point_drawn_by_power_laws_has_the_bars_of_the_map():
-    """`drawn_losses` of a sweep: the same draws as the map's, that computes the axle anew."""
+    """`drawn_losses` of a sweep: the same draws as the map's, that computes the axle again."""
     from gearlube_core.dynamics.hypoid_axle.uncertain import drawn_losses
 
     axle = mohammadpour_2015_axle()

@@ -62,7 +62,7 @@ class AxleParameters(NamedTuple):
     reduced_modulus: float  # E' = 2 E* of the flanks [Pa]
     ranges: RangeLimits
     preload_p: float  # axial preload of a bearing of the pinion, for its drag [N]
-    preload_g: float  # ditto of the gear
+    preload_g: float  # the same of the gear
     churning: ChurningConstants
     pinion_seal_torque: float  # N.m
     wheel_seal_torque: float  # of both seals [N.m]

@@ -193,5 +193,5 @@ def flank_between(
 
 @kernel
 def film_of(flank: NodeFlank) -> ModelFilm:
-    """Return what the film model says of a flank."""
+    """Return what the film model gives for a flank."""
     return ModelFilm(flank.log_film, flank.log_friction, flank.outside)

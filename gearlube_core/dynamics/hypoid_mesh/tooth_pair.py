@@ -89,7 +89,7 @@ def pair_film(
     law: FlankLaw,
     film_model: Array,
 ) -> ModelFilm:
-    """Return what the film model says of one flank with this law; others as in `pair_friction`."""
+    """Return what the film model gives for one flank; others as in `pair_friction`."""
     return model_film(
         law,
         load,
@@ -115,7 +115,7 @@ def pair_friction(
 ) -> BoundedFlank:
     """Return the state of one flank with this law under `load` [N], sliding at `sliding` [m/s].
 
-    `film` is what a film model says of it, and `film_model` its numbers, empty without one.
+    `film` is what a film model gives for it, and `film_model` its numbers, empty without one.
     """
     return bounded_flank(
         law,
@@ -232,7 +232,7 @@ def flank_film(
     refresh: float,
     films: Array,
 ) -> ModelFilm:
-    """Return what the film model says of one flank, or NO_MODEL_FILM where the law takes none.
+    """Return what the film model gives for one flank, or NO_MODEL_FILM where the law takes none.
 
     At the contact itself where `refresh` is EXACT, else as `flank_at_nodes`. `load` of this pair
     [N]; others as there.

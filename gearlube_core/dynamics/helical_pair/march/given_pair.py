@@ -69,8 +69,8 @@ class MarchChoices(NamedTuple):
     held: float  # 1: axial motion and tilt are held; 0: free
     line_work: float  # see `FlankConstants`
     friction_updates_per_mesh_period: float
-    film: float  # ditto
-    film_limiting_slope: float  # ditto
+    film: float  # the same
+    film_limiting_slope: float  # the same
 
 
 @kernel

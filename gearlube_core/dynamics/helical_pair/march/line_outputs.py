@@ -141,7 +141,7 @@ class LinesFound(NamedTuple):
     temperature: float  # of the film [K]
     pressure: float  # largest Hertz pressure [Pa]
     outside: float  # share of the load outside the domain of the film model; 0 with formulas [-]
-    loss_bound: float  # bound of the friction power at this instant over it; ditto [-]
+    loss_bound: float  # bound of the friction power at this instant over it; the same [-]
 
 
 @kernel

@@ -39,7 +39,7 @@ class MarchMesh(NamedTuple):
 
     torque: Array  # shape (levels,) [N.m]
     density: Array  # shape (levels, phases * lines * stations) [N/m2]
-    offset: Array  # ditto [m]
+    offset: Array  # the same [m]
 
 
 MeshFields: TypeAlias = tuple[Array, Array, Array]  # the same as a plain tuple
