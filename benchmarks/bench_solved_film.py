@@ -3,8 +3,8 @@
 
 Processor time of communication steps by formula and by the film model, turn by turn in one process.
 Each turn starts from the same state: with less friction an axle speeds up and takes more steps.
-The bare axle does so within a turn, by one per cent in 20 ms, so that nodes are evaluated more often
-than in a car. With `--fmu` the same through HypoidAxle.fmu and FMPy, over the same time. With
+The bare axle does so within a turn, by one per cent in 20 ms, so that nodes are evaluated more
+often than in a car. With `--fmu` the same through HypoidAxle.fmu and FMPy, over the same time. With
 `--pair` it is the helical pair of He et al. at 1000 rpm, whose load holds its speed. FMUs are timed
 in Python and native. With `--rollers` the FMU of the axle has solved films in its bearings as well,
 against formulas with Biboulet and Houpert's law, which goes from roller to roller too.
