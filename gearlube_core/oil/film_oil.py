@@ -22,6 +22,8 @@ from gearlube_core.oil.film_laws import (
 # eta/eta0 = e^200 lies far above glass; beyond, the law goes on along its tangent in ln eta
 _LARGEST_EXPONENT = 200.0
 _LARGEST_RATIO = math.exp(_LARGEST_EXPONENT)
+# Pa; below, the local Eyring stress is that at this pressure
+LEAST_PRESSURE = 1.0e6
 
 
 class FilmOil(NamedTuple):
@@ -48,10 +50,11 @@ class FilmOil(NamedTuple):
     expansion: float  # thermal expansion of volume [1/K]
     conductivity: float  # [W/(m K)]
     heat_capacity: float  # [J/(kg K)]
+    eyring_slope: float = 0.0  # Lambda of the local Eyring stress [-]; 0: tau0 everywhere
 
     def newtonian(self) -> FilmOil:
         """Return the oil without shear thinning."""
-        return self._replace(shear=NEWTONIAN)
+        return self._replace(shear=NEWTONIAN, eyring_slope=0.0)
 
     def in_units(self, pressure: float) -> FilmOil:
         """Return the oil with viscosity over eta0, density over rho0, pressure in a unit [Pa].
@@ -133,6 +136,59 @@ def limiting_stress(oil: FilmOil, p: float) -> float:
     """Return the limiting shear stress tau_limit + slope p [Pa]; infinite where there is none."""
     limit = oil.tau_limit + oil.limit_slope * max(p, 0.0)
     return limit if limit > 0.0 else math.inf
+
+
+@kernel
+def stress_ratio(oil: FilmOil, p: float, cooling: float) -> tuple[float, float]:
+    """Return the local Eyring stress over tau0 of the shear law, and the slope of its logarithm.
+
+    tau_E = 2 Lambda p/ln[eta(p, T)/eta(0, T)]
+
+    Parameters
+    ----------
+    oil
+        In SI.
+    p
+        Gauge pressure [Pa].
+    cooling
+        `cooling_factor` of the temperature [-].
+
+    Returns
+    -------
+    tuple of float
+        tau_E/tau0 [-] and d ln(tau_E)/dp at one temperature [1/Pa]; 1 and 0 of an oil whose
+        Eyring stress is one number.
+
+    Notes
+    -----
+    2 Lambda over the secant of ln(eta) from ambient pressure, so that the stress tends to
+    Lambda p where both are large. Below 1 MPa it is that at 1 MPa. Source: [arana_2019].
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> oil = film_oil(eta0=0.04, alpha=2e-8, eyring_slope=0.047)
+    >>> round(1e-6 * oil.shear.tau0 * stress_ratio(oil, 1e9, 1.0)[0], 2)  # MPa at 1 GPa
+    6.59
+    """
+    if oil.eyring_slope == 0.0:
+        return 1.0, 0.0
+    q = max(p, LEAST_PRESSURE)
+    grown, slope = log_viscosity(oil.viscosity, q, cooling)
+    grown -= log_viscosity(oil.viscosity, 0.0, cooling)[0]
+    ratio = 2.0 * oil.eyring_slope * q / (grown * oil.shear.tau0)
+    return ratio, 1.0 / q - slope / grown if p > LEAST_PRESSURE else 0.0
+
+
+@kernel
+def fill_stress_ratios(
+    oil: FilmOil, unit: float, p: np.ndarray, cooling: np.ndarray, ratio: np.ndarray,
+    slope: np.ndarray,
+) -> None:  # fmt: skip
+    """Fill `stress_ratio` and its slope at pressures in a unit [Pa]; arrays of one shape."""
+    for i in range(p.size):
+        ratio.flat[i], by_p = stress_ratio(oil, p.flat[i] * unit, cooling.flat[i])
+        slope.flat[i] = by_p * unit
 
 
 @kernel

@@ -16,7 +16,7 @@ from gearlube_core.oil.film_laws import (
     log_viscosity,
     rate_ratio,
 )
-from gearlube_core.oil.film_oil import FilmOil, viscosity_cooling
+from gearlube_core.oil.film_oil import LEAST_PRESSURE, FilmOil, viscosity_cooling
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.named_laws import DensityLaw, Newtonian, ShearLaw, ViscosityLaw
 from gearlube_core.oil.oil_heat import OilHeat
@@ -34,6 +34,7 @@ def film_oil(
     shear_law: Any = None,
     rho0: float = 870.0,
     eyring_stress: float | None = None,
+    eyring_slope: float = 0.0,
     limiting_shear: tuple[float, float] | None = None,
     temperature: float = 313.15,
     temperature_exponent: float = 0.0,
@@ -60,9 +61,13 @@ def film_oil(
     rho0 : float
         Density [kg/m3].
     eyring_stress : float, optional
-        tau0 of Eyring's law [Pa]; without it and `shear_law` the oil is Newtonian.
+        tau0 of Eyring's law [Pa]; without it, `eyring_slope` and `shear_law` the oil is Newtonian.
+    eyring_slope : float
+        Lambda of a local Eyring stress [-], see `stress_ratio`, 0.03 to 0.09 of most oils; the
+        shear stress is then also limited to Lambda p. 0: `eyring_stress` everywhere.
     limiting_shear : tuple of float, optional
-        Limiting shear stress at ambient pressure [Pa] and its slope with pressure [-].
+        Limiting shear stress at ambient pressure [Pa] and its slope with pressure [-]; without
+        it 0 and `eyring_slope`.
     temperature : float
         Temperature of the oil at the inlet [K].
     temperature_exponent : float
@@ -96,22 +101,39 @@ def film_oil(
     check_within("temperature_exponent", temperature_exponent, 0.0, 5.0)
     if temperature_exponent > 0.0:
         law = _warming_law(law, temperature_exponent)
-    limit, slope = (0.0, 0.0) if limiting_shear is None else limiting_shear
+    check_within("eyring_slope", eyring_slope, 0.0, 0.5)
+    limit, slope = (0.0, eyring_slope) if limiting_shear is None else limiting_shear
     check_within("limiting_shear[0]", limit, 0.0, 1e10, "Pa", "5 MPa is 5e6 Pa.")
     check_within("limiting_shear[1]", slope, 0.0, 1.0)
+    viscosity = _viscosity_law(law, eta0, alpha)
+    if eyring_slope > 0.0:
+        eyring_stress = _ambient_stress(eyring_slope, eyring_stress, viscosity)
+    shear = _shear_law(shear_law, eyring_stress)
     return FilmOil(
         eta0=float(eta0),
         rho0=float(rho0),
-        viscosity=_viscosity_law(law, eta0, alpha),
+        viscosity=viscosity,
         density=_density_law(density_law),
-        shear=_shear_law(shear_law, eyring_stress),
+        shear=shear,
         tau_limit=float(limit),
         limit_slope=float(slope),
         temperature=float(temperature),
         expansion=float(heat.expansion),
         conductivity=float(heat.conductivity),
         heat_capacity=float(heat.heat_capacity),
+        eyring_slope=float(eyring_slope) if shear.tau0 > 0.0 else 0.0,
     )
+
+
+def _ambient_stress(slope: float, stress: float | None, viscosity: Any) -> float:
+    if stress is not None:
+        raise ParameterError(
+            f"eyring_stress must be left out if eyring_slope is above 0, got {stress:g} Pa and "
+            f"{slope:g}. Give the one or the other."
+        )
+    grown = log_viscosity(viscosity, LEAST_PRESSURE, 1.0)[0]
+    check_positive("alpha", grown, "", "A local Eyring stress needs viscosity that grows.")
+    return 2.0 * slope * LEAST_PRESSURE / float(grown)
 
 
 def _warming_law(law: Any, exponent: float) -> ViscosityLaw:

@@ -29,7 +29,8 @@ DIRECTIONS = [(1.0, 0.0), (0.0, 1.0), (0.8, 0.6)]
 
 
 def contact(sliding=(1.0, 0.0), entrainment=(2.0, 0.0), nodes=NODES, **law):
-    oil = film_oil(eta0=0.04, alpha=1.8e-8, eyring_stress=TAU0, **law)
+    law = {"eyring_stress": TAU0} | law
+    oil = film_oil(eta0=0.04, alpha=1.8e-8, **law)
     return elliptical_contact(
         R_x=0.012,
         R_y=0.02,
@@ -103,6 +104,25 @@ def test_operator_follows_a_limiting_stress_that_grows_with_pressure(sliding):
         return bool((state.shear.xx < 0.9 * sheared).sum() > 20)
 
     assert error_of_the_operator(level, pressure, approach, slips) < 1e-6
+
+
+@each("sliding", DIRECTIONS)
+@each(("limiting_shear", "largest"), [((0.0, 0.0), 5.0), ((1e4, 0.02), 1.5)])
+def test_operator_follows_an_eyring_stress_that_grows_with_pressure(
+    sliding, limiting_shear, largest
+):
+    law = {"eyring_stress": None, "eyring_slope": 0.03, "limiting_shear": limiting_shear}
+    problem = contact(sliding, **law)
+    level = PointLevel(problem, PointScales.of(problem), (NODES, NODES), "upwind-2")
+    # warm in the middle: the local stress follows the temperature as well
+    x, y = level.grid.x, level.grid.y
+    warm = 0.05 * np.exp(-((x / 1e-4) ** 2) - (y[:, None] / 1e-4) ** 2)
+    level.set_thermal_factors(1.0 - warm, np.ones(level.shape))
+
+    def local(state: FilmState) -> bool:
+        return bool(state.shear.xx.max() > largest)
+
+    assert error_of_the_operator(level, *wavy(level, problem), local) < 1e-6
 
 
 @each("limits", [(-np.inf, np.inf), (0.9, 1.1)])

@@ -318,11 +318,14 @@ def test_error_of_a_step_is_carried_where_the_oil_is_pressed_or_has_left_the_con
     assert steps.error[0] == pytest.approx(expected)
 
 
+CONSTANT = np.ones((5, 6)), np.zeros((5, 6))  # one Eyring stress at all nodes
+
+
 def test_film_without_slopes_and_sliding_flows_as_a_newtonian(monkeypatch):
     interpret(monkeypatch, factor_fields)
     along, across = np.full((2, 5, 6), np.nan)
     stress, all_rows = np.full((2, 5, 6), np.nan), ((0, 5), factor_fields.FactorWork.empty(6))
-    units = ShearUnits(np.zeros(5), np.full(6, 0.3), 0.2, 0.8, 0.6, 0.0, 0.0)
+    units = ShearUnits(np.zeros(5), np.full(6, 0.3), 0.2, 0.8, 0.6, 0.0, 0.0, *CONSTANT)
     flat, thick = np.full((5, 6), 0.4), np.ones((5, 6))
     arguments = Eyring(5e6), flat, thick, thick
     factor_fields.fill_shear_factors(*arguments, units, *all_rows, along, across, stress)
@@ -346,7 +349,7 @@ def test_slopes_of_factors_at_small_stress_grow_with_the_curvature_of_the_law(mo
     interpret(monkeypatch, factor_fields)
     rng = np.random.default_rng(2)
     pressure, film = 1e-3 * rng.random((5, 6)), 1.0 + rng.random((5, 6))
-    units = ShearUnits(np.full(5, 2e-3), np.full(6, 0.3), 0.2, 0.8, 0.6, 0.0, 0.0)
+    units = ShearUnits(np.full(5, 2e-3), np.full(6, 0.3), 0.2, 0.8, 0.6, 0.0, 0.0, *CONSTANT)
     thick, rows = np.ones((5, 6)), ((0, 5), factor_fields.FactorWork.empty(6))
 
     class Law(NamedTuple):

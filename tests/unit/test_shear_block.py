@@ -90,7 +90,10 @@ def test_rows_of_factors_do_not_depend_on_the_rows_filled_with_them():
     rng = np.random.default_rng(3)
     pressure, film = rng.uniform(0.0, 2.0, (ny, nx)), rng.uniform(0.2, 1.0, (ny, nx))
     fluidity, thickening = np.exp(-6.0 * pressure), np.full((ny, nx), 6.0)
-    units = ShearUnits(np.linspace(-0.5, 0.5, ny), np.full(nx, 1.5), 0.7, 0.8, 0.6, 2.0, 1.0)
+    local = 1.0 + 0.2 * pressure, 0.2 / (1.0 + 0.2 * pressure)
+    units = ShearUnits(
+        np.linspace(-0.5, 0.5, ny), np.full(nx, 1.5), 0.7, 0.8, 0.6, 2.0, 1.0, *local
+    )
     whole, parts = (np.full((12, ny, nx), np.nan) for _ in range(2))
     wanted = np.ones((ny, nx), dtype=bool)
     for fields, cuts in ((whole, (0, ny)), (parts, (0, 2, 7, ny))):

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_laws import cooling_at
-from gearlube_core.oil.film_oil import FilmOil, limiting_stress, thermal_viscosity
+from gearlube_core.oil.film_laws import cooling_at, cooling_factor
+from gearlube_core.oil.film_oil import FilmOil, limiting_stress, stress_ratio, thermal_viscosity
 from gearlube_core.oil.sheared_film import layered_stress, shear_rate
 
 
@@ -58,6 +58,16 @@ def fill_surface_weights(step: float, now: np.ndarray, before: np.ndarray) -> No
 
 
 @kernel
+def mean_temperature(T: np.ndarray, i: int) -> float:
+    """Return the mean across the film at node i of temperatures (n, m) at even heights [K]."""
+    m = T.shape[1]
+    mean = 0.0
+    for k in range(m):
+        mean += T[i, k] * (1.0 if 0 < k < m - 1 else 0.5) / (m - 1)
+    return mean
+
+
+@kernel
 def fill_shear(
     T: np.ndarray, i: int, f: FilmFields, sliding: float, oil: FilmOil, heat: np.ndarray
 ) -> tuple[float, float]:
@@ -87,12 +97,15 @@ def fill_shear(
 
     Notes
     -----
-    With a limiting stress the film slips at it and the rest of the sliding heats evenly.
+    With a limiting stress the film slips at it and the rest of the sliding heats evenly. A local
+    Eyring stress is that at the mean temperature across the film.
     """
     m = heat.size
     h, slope = f.h[i], f.p_slope[i]
     dz = 1.0 / (m - 1)
     pumped = 0.0
+    cooling = cooling_factor(oil.viscosity, mean_temperature(T, i), oil.temperature)
+    unit = stress_ratio(oil, f.p[i], cooling)[0]
     for k in range(m):
         w = dz if 0 < k < m - 1 else 0.5 * dz
         z = k * dz - 0.5
@@ -100,7 +113,7 @@ def fill_shear(
         pumped += 12.0 * z * z * (w / heat[k])
     # the trapezoidal rule for 12 z^2 alone gives 1 + 2 dz^2
     pumped /= 1.0 + 2.0 * dz * dz
-    tau = layered_stress(oil.shear, heat, h, slope, sliding)
+    tau = unit * layered_stress(oil.shear, heat, h, slope / unit, sliding / unit)
     limit = limiting_stress(oil, f.p[i])
     slips = abs(tau) > limit
     if slips:
@@ -110,7 +123,7 @@ def fill_shear(
         w = dz if 0 < k < m - 1 else 0.5 * dz
         z = k * dz - 0.5
         stress = tau + slope * h * z
-        rate = shear_rate(oil.shear, stress, heat[k])
+        rate = unit * shear_rate(oil.shear, stress / unit, heat[k])
         heat[k] = f.wet[i] * stress * rate
         total += w * rate
     if slips:
@@ -245,10 +258,7 @@ def fill_thermal_oil(
     cooling, dilation
         Filled (n,) [-].
     """
-    m = T.shape[1]
     for i in range(p.size):
         cooling[i] = cooling_at(oil.viscosity, p[i], math.log(eta[i] / oil.eta0))
-        mean = 0.0
-        for k in range(m):
-            mean += T[i, k] * (1.0 if 0 < k < m - 1 else 0.5) / (m - 1)
+        mean = mean_temperature(T, i)
         dilation[i] = max(1.0 - oil.expansion * (mean - oil.temperature), 0.1)

@@ -13,7 +13,7 @@ import numpy as np
 
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_laws import density_ratio, log_viscosity
-from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_oil import FilmOil, stress_ratio
 from gearlube_core.oil.sheared_film import flow_factor
 
 # codes of the wedge term's stencil
@@ -50,12 +50,14 @@ class LocalRows(NamedTuple):
     rho: np.ndarray  # (n,) rho/rho0
     rho_slope: np.ndarray  # (n,)
     rho_bend: np.ndarray  # (n,) second derivative
+    unit: np.ndarray  # (n,) local Eyring stress over tau0
+    unit_slope: np.ndarray  # (n,) of its logarithm
 
 
 def local_rows(n: int) -> LocalRows:
     """Return work arrays for n nodes."""
     wide = (np.zeros((n, WIDTH)), np.zeros((n, WIDTH)), np.zeros((n, 3)))
-    return LocalRows(np.zeros(n), *wide, np.zeros(n - 1), *(np.zeros(n) for _ in range(5)))
+    return LocalRows(np.zeros(n), *wide, np.zeros(n - 1), *(np.zeros(n) for _ in range(7)))
 
 
 @kernel
@@ -76,6 +78,8 @@ def _fill_oil(
         rows.rho[i] = dilation[i] * ratio
         rows.rho_slope[i] = dilation[i] * slope * c.pressure
         rows.rho_bend[i] = dilation[i] * bend * c.pressure * c.pressure
+        rows.unit[i], slope = stress_ratio(oil, p, cooling[i])
+        rows.unit_slope[i] = slope * c.pressure
 
 
 @kernel
@@ -105,17 +109,18 @@ def _add_poiseuille(
     right = rows.rho[g] * H[g] ** 3 / rows.eta[g]
     drop = P[g] - P[f]
     film, sigma, sigma_f, sigma_g, react_f, react_g = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    unit_f, unit_g = rows.unit[f], rows.unit[g]
     if c.sigma > 0.0:
         film = 0.5 * (H[f] + H[g])
         sigma = c.sigma * film * drop / c.step
-        a = c.shear * rows.eta[f] / H[f]
-        factor, slope, by_a = flow_factor(shear_law, sigma, a)
+        a = c.shear * rows.eta[f] / H[f] / unit_f
+        factor, slope, by_a = flow_factor(shear_law, sigma / unit_f, a)
         left *= factor
-        sigma_f, react_f = slope / factor, a * by_a / factor
-        a = c.shear * rows.eta[g] / H[g]
-        factor, slope, by_a = flow_factor(shear_law, sigma, a)
+        sigma_f, react_f = slope / factor / unit_f, a * by_a / factor
+        a = c.shear * rows.eta[g] / H[g] / unit_g
+        factor, slope, by_a = flow_factor(shear_law, sigma / unit_g, a)
         right *= factor
-        sigma_g, react_g = slope / factor, a * by_a / factor
+        sigma_g, react_g = slope / factor / unit_g, a * by_a / factor
     mean = 0.5 * (left + right)
     flow = -by_step * mean * drop
     half = -0.5 * by_step * drop
@@ -125,6 +130,8 @@ def _add_poiseuille(
     p_g = -by_step * mean + slope_sigma
     p_f += half * left * (rows.rho_slope[f] / rows.rho[f] - (1.0 - react_f) * rows.eta_slope[f])
     p_g += half * right * (rows.rho_slope[g] / rows.rho[g] - (1.0 - react_g) * rows.eta_slope[g])
+    p_f -= half * left * rows.unit_slope[f] * (sigma * sigma_f + react_f)
+    p_g -= half * right * rows.unit_slope[g] * (sigma * sigma_g + react_g)
     both = 0.5 * by_sigma * sigma / film
     h_f = half * left * (3.0 - react_f) / H[f] + both
     h_g = half * right * (3.0 - react_g) / H[g] + both

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_oil import FilmOil, limiting_stress
+from gearlube_core.oil.film_laws import cooling_at
+from gearlube_core.oil.film_oil import FilmOil, limiting_stress, stress_ratio
 from gearlube_core.oil.sheared_film import mid_stress
 
 
@@ -25,7 +26,7 @@ def fill_mean_stress(
     """Fill the shear stress at mid-film.
 
     tau_m = eta (u2 - u1)/h, or that of the shear law, tau0 asinh(a s/sinh s) for Eyring's;
-    at most tau_limit + slope p in amount
+    tau0 is the local one, `stress_ratio`; at most tau_limit + slope p in amount
 
     Parameters
     ----------
@@ -49,6 +50,9 @@ def fill_mean_stress(
         newtonian = eta[i] * sliding / h[i]
         stress = newtonian
         tau0 = oil.shear.tau0
+        if oil.eyring_slope > 0.0:
+            cooling = cooling_at(oil.viscosity, p[i], math.log(eta[i] / oil.eta0))
+            tau0 *= stress_ratio(oil, p[i], cooling)[0]
         if tau0 > 0.0:
             sigma = 0.5 * h[i] * p_slope[i] / tau0
             stress = tau0 * mid_stress(oil.shear, sigma, newtonian / tau0)

@@ -115,7 +115,8 @@ class PointLevel:
 
     def set_thermal_factors(self, viscosity: Array, density: Array) -> None:
         """Set the factors of viscosity and density by heat, of shape (ny, nx) [-]."""
-        self.terms = replace(self.terms, oil=self.terms.oil.heated(viscosity, density))
+        oil, shear = self.terms.oil.heated(viscosity, density), self.terms.shear.heated(viscosity)
+        self.terms = replace(self.terms, oil=oil, shear=shear)
 
     def set_inlet_layer(self, layer: float) -> None:
         """Set the film on the upstream border [-]; infinite: full."""

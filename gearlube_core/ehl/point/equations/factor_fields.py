@@ -36,10 +36,12 @@ class ShearUnits(NamedTuple):
     sine: float
     limit: float  # limiting stress at ambient pressure [-]
     limit_slope: float  # its slope with pressure [-]; both 0: none
+    ratio: np.ndarray  # local Eyring stress over tau0, shape (ny, nx) [-]
+    ratio_slope: np.ndarray  # slope of its logarithm with pressure [-]
 
 
 class _Stresses(NamedTuple):
-    """Stresses at a node over tau0 [-]."""
+    """Stresses at a node over its Eyring stress [-]."""
 
     s: float  # drop over half the film along sliding
     r: float  # and across it
@@ -56,8 +58,10 @@ def _stresses(
     y = units.sigma_y * h * (pressure[j + 1, i] - pressure[j - 1, i])
     s, r = units.cosine * x + units.sine * y, units.cosine * y - units.sine * x
     a, most = units.couette[j] / (h * fluidity), math.inf
-    if units.limit + units.limit_slope > 0.0:
-        most = units.limit + units.limit_slope * max(pressure[j, i], 0.0)
+    limit = units.limit + units.limit_slope * max(pressure[j, i], 0.0)
+    if limit > 0.0:
+        most = limit / units.ratio[j, i]
+    s, r, a = s / units.ratio[j, i], r / units.ratio[j, i], a / units.ratio[j, i]
     return _Stresses(s, r, a, most, max(abs(s), abs(r), abs(a)) < min(_SMALL_STRESS, most))
 
 
@@ -287,8 +291,15 @@ def _write(
     # derivatives by the fields from those over Sigma_s, Sigma_r, a and the limit
     by_s, by_r, by_a = slopes[1, k], slopes[2, k], slopes[3, k]
     s, r, a, h = work.s[i], work.r[i], work.a[i], film[j, i]
-    hardening = units.limit_slope if pressure[j, i] > 0.0 else 0.0
+    hardening = units.limit_slope / units.ratio[j, i] if pressure[j, i] > 0.0 else 0.0
     result[0, j, i] = by_a * a * thickening[j, i] + by_limit * hardening
+    if units.ratio_slope[j, i] != 0.0:
+        shrinking = by_s * s + by_r * r + by_a * a
+        if by_limit != 0.0:
+            shrinking += by_limit * work.most[i]
+        result[0, j, i] -= units.ratio_slope[j, i] * shrinking
     result[1, j, i] = by_s * s + by_r * r - by_a * a
     result[2, j, i] = (units.cosine * by_s - units.sine * by_r) * units.sigma_x[i] * h
+    result[2, j, i] /= units.ratio[j, i]
     result[3, j, i] = (units.sine * by_s + units.cosine * by_r) * units.sigma_y * h
+    result[3, j, i] /= units.ratio[j, i]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -25,7 +24,7 @@ from gearlube_core.ehl.point.equations.stencil import NodeSlopes, TensorSlopes
 from gearlube_core.ehl.point.settings import AMBIENT, Sides
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.row_workers import ALONE, RowWorkers
-from gearlube_core.oil.film_oil import FilmOil
+from gearlube_core.oil.film_oil import FilmOil, fill_stress_ratios
 
 ALIGNED = 1.0e-12  # product of cosine and sine: flow along an axis feels no slope along the other
 _EVEN = 1.0e-9  # spread of sliding along x over sliding along y
@@ -35,7 +34,8 @@ _EVEN = 1.0e-9  # spread of sliding along x over sliding along y
 class FilmShear:
     """Constants of a film with a shear law on one grid; build it with `of`."""
 
-    law: Any  # shear law
+    oil: FilmOil  # in SI
+    pressure: float  # unit of the arrays [Pa]
     unit: float  # shear stress over tau0 of sliding at 1 m/s, times film and fluidity [s/m]
     sigma_x: float  # stress drop over tau0, over film and pressure between the nodes beside
     sigma_y: float
@@ -47,6 +47,7 @@ class FilmShear:
     limit_slope: float = 0.0  # its slope with pressure
     sides: Sides = AMBIENT  # of the rows
     workers: RowWorkers = ALONE  # who share the rows
+    cooling: Array | None = None  # `cooling_factor` of the film, (ny, nx) [-]; None: 1
 
     @classmethod
     def of(
@@ -102,7 +103,8 @@ class FilmShear:
         speed = math.hypot(*sliding)
         unit = viscosity / (tau0 * film)
         return cls(
-            law=lubricant.shear,
+            oil=lubricant,
+            pressure=pressure,
             unit=unit,
             sigma_x=film * pressure / (4.0 * tau0 * steps[0]),
             sigma_y=film * pressure / (4.0 * tau0 * steps[1]),
@@ -150,8 +152,16 @@ class FilmShear:
         """Return the film whose rows these share."""
         return replace(self, workers=workers)
 
+    def heated(self, cooling: Array) -> FilmShear:
+        """Return the film at other temperatures; cooling factor of the law, (ny, nx) [-]."""
+        return replace(self, cooling=cooling)
+
     def factors(self, pressure: Array, film: Array, fluidity: Array) -> AlignedFactors:
         """Return the factors at pressure, film and 1/eta in the units of `of`, (rows, nx)."""
+        ratio, ratio_slope = np.ones(pressure.shape), np.zeros(pressure.shape)
+        if self.oil.eyring_slope > 0.0:
+            cooling = ratio.copy() if self.cooling is None else self.cooling
+            fill_stress_ratios(self.oil, self.pressure, pressure, cooling, ratio, ratio_slope)
         units = ShearUnits(
             self.couette,
             self.sigma_x * (np.ones(pressure.shape[1]) if self.central is None else self.central),
@@ -160,11 +170,13 @@ class FilmShear:
             self.sine,
             self.limit,
             self.limit_slope,
+            ratio,
+            ratio_slope,
         )
         ny, nx = pressure.shape
         along, across = np.empty((2, ny, nx))
         stress = np.empty((2, ny, nx))
-        fields = self.law, pressure, film, fluidity
+        fields = self.oil.shear, pressure, film, fluidity
         self.workers.share(
             lambda part: fill_shear_factors(
                 *fields, units, part, FactorWork.empty(nx), along, across, stress
@@ -245,6 +257,10 @@ class NewtonianShear:
         return self
 
     def with_workers(self, workers: RowWorkers) -> NewtonianShear:
+        """Return the same."""
+        return self
+
+    def heated(self, cooling: Array) -> NewtonianShear:
         """Return the same."""
         return self
 

@@ -11,11 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.ehl.line.energy import FilmFields, fill_shear
+from gearlube_core.ehl.line.energy import FilmFields, fill_shear, mean_temperature
 from gearlube_core.kernels.jit import kernel
+from gearlube_core.oil.film_laws import cooling_factor
 from gearlube_core.oil.film_oil import (
     FilmOil,
     limiting_stress,
+    stress_ratio,
     thermal_viscosity,
     viscosity_cooling,
 )
@@ -112,6 +114,8 @@ def fill_heat(
                 heat.source[i, k] += (drop * z) ** 2 / eta
         size = abs(tau)
         if size < limiting_stress(oil, f.p[i]):
+            cooling = cooling_factor(oil.viscosity, mean_temperature(T, i), oil.temperature)
+            size /= stress_ratio(oil, f.p[i], cooling)[0]
             share = stress_share(oil.shear, size) if oil.shear.tau0 > 0.0 else 1.0
             heat.decline[i] = share * viscosity_cooling(oil, f.p[i], T[i, middle])
 
