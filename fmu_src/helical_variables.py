@@ -8,6 +8,7 @@ stands behind, as in `variables`.
 from __future__ import annotations
 
 from functools import partial
+from typing import get_args
 
 from fmu_src.variable import (
     MEMBERS,
@@ -36,7 +37,7 @@ from gearlube_core.dynamics.helical_pair.march.gear_file_march import (
     STIFFNESS_DENSITY,
     ReplacedBearings,
 )
-from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
+from gearlube_core.dynamics.helical_pair.march.parameters import Friction, HelicalMarchParameters
 from gearlube_core.friction.flank_laws import FILM_MODELS
 
 _number = partial(declared, HelicalMarchParameters)
@@ -60,7 +61,7 @@ _PARAMETERS = (
               display_unit="rpm", start=104.71975511965977, minimum=-5e3, maximum=5e3,
               nominal=100.0, argument="pinion_speed"),
     option("friction.model", "Flank friction: mixed film at every contact point, or Coulomb",
-           "film", "constant", "off", start="film", argument="friction"),
+           *get_args(Friction), start="film", argument="friction"),
     _number("friction_coefficient", "friction.coefficient",
             "Coefficient of friction when friction.model = constant", nominal=0.1),
     option("oil.name", "Lubricant",
@@ -233,7 +234,7 @@ _LISTED: tuple[Variable, ...] = (
 )
 
 # parameters and outputs that the model's files declare: names of the released ones, in their order
-_RELEASED: tuple[str, ...] = ()
+_RELEASED = "friction.boundary_friction", "friction.share_exponent"
 HELICAL_PAIR = _LISTED + in_order(
     _RELEASED,
     *declared_in(HelicalMarchParameters, {one.argument for one in _LISTED}),

@@ -180,12 +180,12 @@ def trends(cars: list[CarAxle], shared: list[CarAxle]) -> list[list[str]]:
 
 
 def mixed(cars: list[CarAxle]) -> list[list[str]]:
-    """Return rows for the flanks' loss over oil temperature by two laws of the asperities' load."""
+    """Return rows for the flanks' loss over oil temperature by laws of the asperities' load."""
     rows = []
     sources = [LOSS_SOURCES.index(one) for one in ("friction_viscous", "friction_boundary")]
     for car in cars:
         for torque, speed in ((300.0, 3.0), (300.0, 60.0), (100.0, 200.0)):
-            for law in ("consistent", SHARE):
+            for law in ("consistent", "arana_2019", SHARE):
                 made = replace(car, axle=replace(car.axle, friction=law))
                 lost = losses(made, torque, speed, np.array(_MIXED_DEGC))[:, 0, 0, sources]
                 watts = [float(one.sum()) for one in lost]

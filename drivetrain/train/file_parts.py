@@ -27,6 +27,7 @@ from gearlube_core.film_model.model import ROLLER, FilmModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.housings.model_files import read_reduced_model
 from gearlube_core.housings.reduced_model import Length, Mass, ReducedModel
+from gearlube_core.input_file.field_notes import Declared
 from gearlube_core.input_file.input_file import Section, read_toml
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
@@ -49,6 +50,12 @@ class HelicalGears(Section):
         "one; left out: the stiffness of ISO 6336-1",
     )
     friction: Friction | None = Field(default=None, description="Friction of the flanks; film")
+    boundary_friction: (
+        Annotated[float, Declared(HelicalMarchParameters, "boundary_friction")] | None
+    ) = Field(
+        default=None,
+        description="Friction coefficient of asperities, of the friction arana_2019; 0.07",
+    )
     film: Film | None = Field(
         default=None, description="Films by formulas or solved films; left out: as in the gear file"
     )
@@ -56,7 +63,9 @@ class HelicalGears(Section):
     def read(self) -> HelicalMarchParameters:
         """Return gears, stiffness and friction."""
         mesh = None if self.line_mesh is None else _line_mesh(self.line_mesh)
-        options = self.model_dump(include={"friction", "film"}, exclude_none=True)
+        options = self.model_dump(
+            include={"friction", "boundary_friction", "film"}, exclude_none=True
+        )
         found = helical_march_parameters(HelicalGearFile.given(self.gear_file), line_mesh=mesh)
         return replace(found, **options)
 

@@ -89,8 +89,38 @@ def asperity_share(film_ratio: float, B: float, C: float) -> float:
     return math.exp(-B * max(film_ratio, 0.0) ** C)
 
 
+@kernel
+def arana_share(film_ratio: float, exponent: float) -> float:
+    """Return the share of the load that asperities of flanks carry, (1 - erf Lambda)^k [-].
+
+    Parameters
+    ----------
+    film_ratio
+        Lambda, hot central film over composite rms roughness, not negative [-].
+    exponent
+        k, above zero [-]: 1 in the source. With 1/1.6 to 1.6 it covers other laws of this kind.
+
+    Notes
+    -----
+    Made to fit contacts that were counted electrically: they begin below 2 and rise steeply below
+    1. All of the load without a film, 0.48 at 0.5, 0.16 at 1, 0.005 at 2. Source: [arana_2019]
+    """
+    return float(math.erfc(film_ratio) ** exponent)
+
+
 # composite root-mean-square roughness of two flanks
 ROUGHNESS = Number("m", 1e-9, 2e-5, "0.5 um is 5e-7 m.")
+# of `arana_share` and where asperities touch; the factors are of gears, and of laws of the share
+ARANA_FRICTION = 0.07  # advised for ground gears, [arana_2019]
+BOUNDARY_FRICTION = Number(
+    "1", 1e-3, 0.5, "0.07 is usual for ground flanks.", "Friction coefficient of touching flanks",
+    "of ground spur and helical gears, Arana et al. 2019; assumed for others", 1.7,
+    "friction.boundary_friction",
+)  # fmt: skip
+SHARE_EXPONENT = Number(
+    "1", 0.2, 5.0, "1 is the law as printed.", "Exponent of the share of load on asperities",
+    "laws of the share among each other", 1.6, "friction.share_exponent",
+)  # fmt: skip
 
 
 class SurfaceParameters(NamedTuple):
@@ -99,6 +129,8 @@ class SurfaceParameters(NamedTuple):
     sigma: float  # composite root-mean-square roughness [m]
     xi_beta_sigma: float  # asperity density x tip radius x roughness [-], 0.03 to 0.07
     sigma_over_beta: float  # roughness over tip radius [-], 1e-4 to 1e-2
+    share_exponent: float = 0.0  # of `arana_share` [-]; 0: Greenwood and Tripp's load
+    boundary: float = 0.0  # with that share: friction coefficient of asperities [-]
 
 
 # finished gear flanks, Mohammadpour et al. 2015, text below [mohammadpour_2015 (17)]
@@ -114,7 +146,7 @@ def gear_flanks(sigma: float) -> SurfaceParameters:
     -----
     Mohammadpour et al. 2015, text below [mohammadpour_2015 (17)].
     """
-    return SurfaceParameters(sigma, FLANK_XI_BETA_SIGMA, FLANK_SIGMA_OVER_BETA)
+    return SurfaceParameters(sigma, FLANK_XI_BETA_SIGMA, FLANK_SIGMA_OVER_BETA, 0.0, 0.0)
 
 
 LAMBDA_MAX = 5.0  # asperities are dropped beyond: F_5/2(5) = 1.35e-8, F_2(5) = 1.93e-8

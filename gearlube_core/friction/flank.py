@@ -29,9 +29,7 @@ def flank_friction(
     """Return film, friction and temperature of one flank contact.
 
     consistent:  f_v = mu (F - W_a),  f_b = tau_l0 A_a + gamma W_a,  0 <= W_a <= F
-    as printed:  f_v = mu F, with E' in W_a, beta = 1 1/K in mu and the printed F_2, F_5/2
-    printed traction:  as consistent, with beta = 1 1/K in mu
-    Zhou and Hoeprich's share:  as consistent, with W_a = F exp(-B Lambda^C)
+    others as in `mixed_friction`
 
     Parameters
     ----------
@@ -65,7 +63,7 @@ def flank_friction(
     value, W_a is at most F, and the boundary term carries tanh(|dU|/1 mm/s), so that friction
     passes through zero with sliding speed; the paper states none of these. Greenwood and Tripp's
     law with the usual constants carries at most 32 MPa, some per cent of the load, also where there
-    is no film; the share of Zhou and Hoeprich carries all of the load there.
+    is no film; the shares of Zhou and Hoeprich and of Arana carry all of the load there.
     Source: [mohammadpour_2015 (11)], and the parts for the terms and their misprints.
     """
     h = central_film_thickness(
@@ -113,7 +111,7 @@ def friction_of_film(
     )
     return FlankState(
         h,
-        h / surface.sigma,
+        friction.film_ratio,
         friction.viscous_friction,
         friction.boundary_friction,
         friction.friction_coefficient,

@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.greenwood_tripp_1971 import (
+    ARANA_FRICTION,
+    BOUNDARY_FRICTION,
+    SHARE_EXPONENT,
+    SurfaceParameters,
+)
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model import net
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
@@ -26,6 +32,7 @@ from gearlube_core.friction.flank_film import (
     flank_model_film,
 )
 from gearlube_core.friction.flank_friction import FlankFriction
+from gearlube_core.friction.flank_law import flank_state
 from gearlube_core.friction.mixed_friction import (
     SPEED_FLOOR,
     FormulaBounds,
@@ -115,6 +122,7 @@ def solved_flank_friction(
         F_film,
         p,
         h,
+        h / surface.sigma,
         slip,
         solid_resistance(geometry.R_e, p, speed, modulus, effusivity_squared),
         F_film / p,
@@ -127,14 +135,13 @@ def solved_flank_friction(
     W_a, A_a = asperity_contact(
         F, F / p, h * (1.0 - model_bound) / surface.sigma, surface, solid, form
     )
-    more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
+    more = boundary_friction(W_a, A_a, slip, lubricant, surface) - solved.boundary_friction
     doubt += v * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
     f_v = v * solved.viscous_friction + w * formula.viscous_friction
     f_b = v * solved.boundary_friction + w * formula.boundary_friction
-    h = v * h + w * formula.film_thickness
     state = FlankState(
-        h,
-        h / surface.sigma,
+        v * h + w * formula.film_thickness,
+        v * solved.film_ratio + w * formula.film_ratio,
         f_v,
         f_b,
         v * solved.friction_coefficient + w * formula.friction_coefficient,
@@ -232,16 +239,7 @@ class MixedFlankFriction(NamedTuple):
                 int(self.form),
                 film_model,
             )
-        state = flank_friction(
-            load,
-            entrainment_speed,
-            sliding_speed,
-            geometry,
-            oil,
-            self.surface,
-            self.solid,
-            int(self.form),
-        )
+        state = flank_state(self, load, entrainment_speed, sliding_speed, geometry, oil)
         return BoundedFlank(state, 0.0, 0.0, 0.0)
 
 
@@ -300,3 +298,47 @@ class ZhouHoeprichShare(
 
     form = ZHOU_HOEPRICH_SHARE
     solved_film = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class AranaShare(
+    MixedFriction,
+    name="arana_2019",
+    text="one coefficient for asperities, which carry 1 - erf of the film ratio of the load",
+):
+    """The mixed law mu = xi mu_b + (1 - xi) mu_film with xi = (1 - erf Lambda)^k.
+
+    mu_b replaces tau_l0 and gamma of the oil. Its default and its range are of ground spur and
+    helical gears; that they hold for hypoid gears and their oils is assumed.
+
+    Parameters
+    ----------
+    boundary_friction : float
+        mu_b [-].
+    share_exponent : float
+        k, see `arana_share` [-].
+
+    References
+    ----------
+    [arana_2019]
+
+    Examples
+    --------
+    >>> from gearlube_core.friction.flank_friction import friction_law
+    >>> friction_law("arana_2019", boundary_friction=0.1).numbers
+    {'boundary_friction': 0.1, 'share_exponent': 1.0}
+    """
+
+    solved_film = True
+    boundary_friction: Annotated[float, BOUNDARY_FRICTION] = ARANA_FRICTION
+    share_exponent: Annotated[float, SHARE_EXPONENT] = 1.0
+
+    def flanks(self, surface: SurfaceParameters) -> SurfaceParameters:
+        """Return a surface whose asperities are those of this law."""
+        return surface._replace(
+            share_exponent=float(self.share_exponent), boundary=float(self.boundary_friction)
+        )
+
+    def __call__(self, surface: SurfaceParameters, solid: SolidParameters) -> MixedFlankFriction:
+        """Return the law for the kernels."""
+        return super().__call__(self.flanks(surface), solid)

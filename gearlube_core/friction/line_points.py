@@ -121,7 +121,7 @@ def line_friction(
     mu = friction.friction_coefficient
     return LineState(
         h,
-        h / surface.sigma,
+        friction.film_ratio,
         friction.viscous_friction,
         friction.boundary_friction,
         mu,

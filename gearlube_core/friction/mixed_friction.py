@@ -13,6 +13,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     RACE_B,
     RACE_C,
     SurfaceParameters,
+    arana_share,
     asperity_area_factor,
     asperity_integrals,
     asperity_load_factor,
@@ -21,6 +22,8 @@ from gearlube_core.contact.greenwood_tripp_1971 import (
     f_5_2_as_printed,
 )
 from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.film.groups import inlet_heating_number
+from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.friction.evans_johnson_1986 import (
     solid_resistance,
     surface_heating_number,
@@ -46,6 +49,7 @@ class MixedFriction(NamedTuple):
     boundary_friction: float  # [N] or [N/m]
     friction_coefficient: float  # total friction over load [-]
     temperature_rise: float  # mean of the film over the oil [K]
+    film_ratio: float  # as the asperities take it [-]
 
 
 @kernel
@@ -129,6 +133,8 @@ def asperity_contact(
     -----
     Range and sources as in `mixed_friction`.
     """
+    if surface.share_exponent > 0.0:
+        return load * arana_share(film_ratio, surface.share_exponent), 0.0
     load_factor = asperity_load_factor(surface)
     if form == AS_PRINTED:
         W_a = load_factor * (2.0 * solid.contact_modulus) * area * f_5_2_as_printed(film_ratio)
@@ -143,8 +149,12 @@ def asperity_contact(
 
 
 @kernel
-def boundary_friction(W_a: float, A_a: float, slip: float, lubricant: LubricantState) -> float:
+def boundary_friction(
+    W_a: float, A_a: float, slip: float, lubricant: LubricantState, surface: SurfaceParameters
+) -> float:
     """Return the friction of asperities, tau_l0 A_a + gamma W_a, built up over BOUNDARY_SPEED.
+
+    With Arana's share it is mu_b W_a, and mu_b is that of the surface.
 
     Parameters
     ----------
@@ -154,13 +164,16 @@ def boundary_friction(W_a: float, A_a: float, slip: float, lubricant: LubricantS
         Magnitude of the sliding speed [m/s].
     lubricant
         Strength of its boundary layers.
+    surface
+        As in `mixed_friction`.
 
     Returns
     -------
     float
         [N] or [N/m], not negative.
     """
-    f_b = lubricant.tau_l0 * A_a + lubricant.gamma * W_a
+    gamma = surface.boundary if surface.share_exponent > 0.0 else lubricant.gamma
+    f_b = lubricant.tau_l0 * A_a + gamma * W_a
     f_b = max(f_b, 0.0)  # the printed area integral is negative from a film ratio of 2 on
     build_up = slip / BOUNDARY_SPEED
     if build_up < _SATURATION:
@@ -175,6 +188,7 @@ def friction_with_asperities(
     film_load: float,
     mean_pressure: float,
     film_thickness: float,
+    film_ratio: float,
     slip: float,
     resistance: float,
     still_area: float,
@@ -189,17 +203,17 @@ def friction_with_asperities(
     ----------
     film_friction
         Friction coefficient mu of the film where it carries all of the load [-].
+    film_ratio
+        Film over composite roughness, for the asperities [-].
     resistance
         r of `solid_resistance` [m2 K/W].
 
     Others, result and notes as in `mixed_friction`.
     """
-    W_a, A_a = asperity_contact(
-        load, load / mean_pressure, film_thickness / surface.sigma, surface, solid, form
-    )
+    W_a, A_a = asperity_contact(load, load / mean_pressure, film_ratio, surface, solid, form)
     F_viscous = load if form == AS_PRINTED else load - W_a
     f_v = film_friction * F_viscous
-    f_b = boundary_friction(W_a, A_a, slip, lubricant)
+    f_b = boundary_friction(W_a, A_a, slip, lubricant, surface)
     friction = f_v + f_b
     dT = contact_temperature_rise(
         friction * slip * mean_pressure / film_load,
@@ -209,7 +223,7 @@ def friction_with_asperities(
         lubricant.conductivity,
         solid.conductivity,
     )
-    return MixedFriction(f_v, f_b, friction / film_load, dT)
+    return MixedFriction(f_v, f_b, friction / film_load, dT, film_ratio)
 
 
 @kernel
@@ -233,6 +247,7 @@ def mixed_friction(
     as printed:  f_v = mu F, with E' in W_a, beta = 1 1/K in mu and the printed F_2, F_5/2
     printed traction:  as consistent, with beta = 1 1/K in mu
     Zhou and Hoeprich's share:  as consistent, with W_a = F exp(-B Lambda^C)
+    Arana's share, in `surface`:  f_b = mu_b W_a,  W_a = F (1 - erf Lambda)^k
 
     Parameters
     ----------
@@ -273,6 +288,8 @@ def mixed_friction(
     Source: [mohammadpour_2015 (11)] [mohammadpour_2015 (12)] [mohammadpour_2015 (15)].
     (12) prints the whole load, the other forms take off what asperities carry.
     [zhou_hoeprich_1991 (45)] for the share; B and C are those of rollers on a race.
+    [arana_2019] for the other; its film is hot: that of the formula times Zhu and Cheng's factor
+    without its term of pressure, which is small where the film is thin and below zero in cold oil.
     """
     reduced_modulus = 2.0 * solid.contact_modulus
     effusivity_squared = solid.conductivity * solid.density * solid.heat_capacity
@@ -290,7 +307,10 @@ def mixed_friction(
         lubricant.conductivity,
         zeta,
     )
-    p = mean_pressure
+    p, film_ratio = mean_pressure, film_thickness / surface.sigma
+    if surface.share_exponent > 0.0:
+        heat = inlet_heating_number(lubricant.eta0, lubricant.beta, speed, lubricant.conductivity)
+        film_ratio *= zhu_cheng_heating(heat, 0.0, slip / speed)
     mu = bounded_stress(lubricant.shear, mu, p, lubricant, p, slip, film_thickness)
     return friction_with_asperities(
         mu,
@@ -298,6 +318,7 @@ def mixed_friction(
         film_load,
         mean_pressure,
         film_thickness,
+        film_ratio,
         slip,
         resistance,
         still_area,
@@ -359,7 +380,7 @@ def formula_doubt(
     exponent = mean_slope(lubricant.viscosity, lubricant, p) * p
     stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
     most = bounds.friction * stress / p * load
-    thinner = h * (1.0 - bounds.film) / surface.sigma
+    thinner = formula.film_ratio * (1.0 - bounds.film)
     W_a, A_a = asperity_contact(load, load / p, thinner, surface, solid, form)
-    more = boundary_friction(W_a, A_a, slip, lubricant) - formula.boundary_friction
+    more = boundary_friction(W_a, A_a, slip, lubricant, surface) - formula.boundary_friction
     return max(formula.viscous_friction, most - formula.viscous_friction) + max(more, 0.0)

@@ -131,6 +131,7 @@ def line_with_film(
         w_film,
         p,
         h,
+        h / surface.sigma,
         slip,
         solid_resistance(R, p, speed, modulus, effusivity_squared),
         STILL_AREA_OVER_WIDTH_SQUARED * width * width,
@@ -142,15 +143,14 @@ def line_with_film(
     model_bound = film.film_bound
     thinner = h * (1.0 - model_bound) / surface.sigma
     W_a, A_a = asperity_contact(w, w / p, thinner, surface, solid, CONSISTENT)
-    more = boundary_friction(W_a, A_a, slip, lubricant) - solved.boundary_friction
+    more = boundary_friction(W_a, A_a, slip, lubricant, surface) - solved.boundary_friction
     doubt += own * (film.friction_bound * solved.viscous_friction + max(more, 0.0))
     f_v = own * solved.viscous_friction + out * formula.viscous_friction
     f_b = own * solved.boundary_friction + out * formula.boundary_friction
     mu = own * solved.friction_coefficient + out * formula.friction_coefficient
-    h = own * h + out * formula.film_thickness
     state = LineState(
-        h,
-        h / surface.sigma,
+        own * h + out * formula.film_thickness,
+        own * solved.film_ratio + out * formula.film_ratio,
         f_v,
         f_b,
         mu,

@@ -186,7 +186,7 @@ HELICAL_PAIR = Case(
         ("friction.coefficient", 1.5, "friction.coefficient must be within 0 to 1, got 1.5"),
         ("mesh.stiffness_density", 1e13, "must be within 0 to 1e+12 N/m2"),
         ("gear.name", 5, "2 (jamali_2015_a), 3 (jamali_2015_b), 4 (custom), got 5"),
-        ("friction.model", 0, "1 (film), 2 (constant), 3 (off), got 0"),
+        ("friction.model", 0, "1 (film), 2 (constant), 3 (off), 4 (arana_2019), got 0"),
         ("solver.steps_per_highest_period", 1, "must be within 6 to 4096, got 1"),
         ("friction.updates_per_mesh_period", 1, "must be within 4 to 4096, got 1"),
     ],

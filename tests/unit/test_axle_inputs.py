@@ -68,7 +68,11 @@ def test_a_parameter_out_of_range_says_what_limit_and_cure(change, message):
         ("equations", "consistent, as_printed"),
         ("radii", "consistent, paper, mean"),
         ("mesh_damping", "hysteretic, modal"),
-        ("friction", "consistent, as_printed, off, printed_traction_circular, zhou_hoeprich_1991"),
+        (
+            "friction",
+            "consistent, as_printed, off, printed_traction_circular, "
+            "zhou_hoeprich_1991, arana_2019",
+        ),
         ("bearing_approach", "full, as_printed"),
         (
             "bearing_torque_loss",

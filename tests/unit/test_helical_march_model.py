@@ -37,7 +37,7 @@ NAN = float("nan")
 LINES = [f"line[{i}].load" for i in range(1, LINES_MAX + 1)]
 
 
-@each("friction", ["film", "constant", "off"])
+@each("friction", ["film", "constant", "off", "arana_2019"])
 @each("name", ["he_2007", "jamali_2015_a", "jamali_2015_b"])
 def test_every_shipped_pair_runs_steadily_in_contact(name: str, friction: str) -> None:
     gear = HelicalGearFile.named(name)
@@ -141,7 +141,7 @@ def test_a_step_too_long_for_its_resolution_is_refused() -> None:
 @each(
     ("settings", "message"),
     [
-        ({"friction": "wet"}, "friction must be one of film, constant, off"),
+        ({"friction": "wet"}, "friction must be one of film, constant, off, arana_2019"),
         ({"form": "three"}, "form must be one of"),
         ({"equations": "printed"}, "equations must be one of"),
         ({"backlash": -1e-6}, "backlash must be within 0"),

@@ -59,10 +59,15 @@ def helical(
     friction: Annotated[
         str,
         typer.Option(
-            help="film: oil film beside the constant coefficients; constant: these alone.",
-            metavar="film|constant",
+            help="film: oil film beside the constant coefficients; constant: these alone; "
+            "arana_2019: as film, and asperities carry a share of any load by the film ratio.",
+            metavar="film|constant|arana_2019",
         ),
     ] = "film",
+    boundary_friction: Annotated[
+        float | None,
+        typer.Option(help="Friction coefficient of asperities, of arana_2019. Default 0.07."),
+    ] = None,
     mesh: Annotated[
         str | None,
         typer.Option(
@@ -192,6 +197,7 @@ def helical(
             mu=numbers_from("--mu", mu or ("0:0.3:0.01",), "", 0.0, 1.0, example="0:0.3:0.01"),
             speeds=tuple(rpm_to_rads(speed) for speed in speeds),
             friction=friction,
+            boundary_friction=boundary_friction,
             mesh=mesh or ("contact" if density is None else "density"),
             density=None if density is None else 1e9 * density,
             torques=tuple(sorted(set(torques or ()))),

@@ -19,12 +19,13 @@ from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.film_model.model import MOST_OUTSIDE
+from gearlube_core.friction.flank_laws import AranaShare
 from gearlube_core.friction.line_integrals import LineFrictionCycle
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.number import numbers_of
 from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
@@ -60,13 +61,15 @@ UNCERTAIN = (
 )
 
 
-def uncertain_of(oil: Lubricant) -> tuple[PairFactor, ...]:
-    """Return the uncertain data, with the factors that an oil has of its own."""
+def uncertain_of(film: FilmFriction) -> tuple[PairFactor, ...]:
+    """Return the uncertain data, with the factors that oil and law have of their own."""
+    oil = film.oil
     own = {"alpha": oil.alpha_factor, "eyring_stress": oil.eyring_stress_factor}
+    law = numbers_of(AranaShare).items() if film.asperities else ()
     return tuple(
         one if (factor := own.get(one.name)) is None else PairFactor(one.name, factor, oil.name)
         for one in UNCERTAIN
-    )
+    ) + tuple(PairFactor(name, one.factor, one.source) for name, one in law)
 
 
 @kernel
@@ -137,7 +140,7 @@ def losses_dataset(
     film, thinnest, heat = np.empty(shape), np.empty(shape), np.empty(shape)
     low, high = np.empty(shape), np.empty(shape)
     doubt, outside = np.empty(shape), np.empty(shape)
-    uncertain = uncertain_of(settings.film().oil)
+    uncertain = uncertain_of(settings.film())
     normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(uncertain)))
     for j, torque in enumerate(torques):
         loads = [table_line_load(points, mesh, float(torque)) for points in (fine, coarse)]
@@ -285,7 +288,11 @@ def _drawn(
         eyring_stress=oil.eyring_stress * by["eyring_stress"],
         alpha=oil.alpha * by["alpha"],
     )
-    return replace(film, oil=oil, roughness_rms=film.roughness_rms * by["roughness"]), by
+    law = film.asperities
+    if law is not None:
+        law = replace(law, **{name: value * by[name] for name, value in law.numbers.items()})
+    roughness = film.roughness_rms * by["roughness"]
+    return replace(film, oil=oil, roughness_rms=roughness, asperities=law), by
 
 
 def losses_csv(dataset: xr.Dataset) -> str:

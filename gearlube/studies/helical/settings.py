@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
+from gearlube_core.contact.greenwood_tripp_1971 import ARANA_FRICTION
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
@@ -25,6 +26,7 @@ from gearlube_core.dynamics.helical_pair.separation.problem import SeparationPro
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.chosen_model import check_oil
 from gearlube_core.film_model.model import LINE, FilmModel
+from gearlube_core.friction.flank_laws import AranaShare
 from gearlube_core.friction.line_points import line_points, uniform_line_load
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
@@ -36,7 +38,7 @@ from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 
 MESHES = ("contact", "density")
-FRICTIONS = ("film", "constant")
+FRICTIONS = ("film", "constant", AranaShare.name)
 PARTS = ("all", "contact", "dynamics", "geometry", "losses")
 RPM = math.pi / 30.0  # rad/s
 LINE_DENSITY = Number("N/m2", 1e7, 1e13, "About 1.3e10 N/m2 is usual for steel.")
@@ -74,8 +76,11 @@ class HelicalSettings:
         all lines.
     density : float, optional
         Stiffness density for mesh "density" [N/m2]; None: from ISO 6336-1.
-    friction : {"film", "constant"}
-        "constant": constant coefficients only; "film": friction of the oil film too.
+    friction : {"film", "constant", "arana_2019"}
+        "constant": constant coefficients only; the others: friction of the oil film too, with
+        asperities by Greenwood and Tripp or by the share of Arana et al.
+    boundary_friction : float, optional
+        Of the asperities with "arana_2019" [-]; default: that of the law.
     torques : tuple of float
         Pinion torques of the loaded contact [N.m]; empty: `LOAD_STEPS`.
     positions : int
@@ -119,6 +124,7 @@ class HelicalSettings:
     mesh: str = "contact"
     density: float | None = None
     friction: str = "film"
+    boundary_friction: float | None = None
     torques: tuple[float, ...] = ()
     positions: int = 24
     oil: str | Lubricant | None = None
@@ -221,6 +227,9 @@ class HelicalSettings:
             oil_temperature=self.oil_temperature,
             solid=STEEL_MOHAMMADPOUR_2015,
             roughness_rms=self.roughness_rms,
+            asperities=AranaShare(boundary_friction=self.boundary_friction or ARANA_FRICTION)
+            if self.friction == AranaShare.name
+            else None,
             film=self.film_model or self.file.film.model,
             line_film_model=self.line_film_model or gear_file_film_model(self.file),
         )
@@ -233,7 +242,7 @@ class HelicalSettings:
         pair = helical_pair_parameters(
             self.file, pinion_torque=self.pinion_torque, mesh=mesh or self.constant_mesh()
         )
-        return replace(pair, film=self.film()) if self.friction == "film" else pair
+        return replace(pair, film=self.film()) if self.friction != "constant" else pair
 
     def cycle(self) -> CycleSettings:
         """Return the positions and loads of the loaded contact."""

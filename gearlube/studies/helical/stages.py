@@ -139,7 +139,7 @@ def stages_of(settings: HelicalSettings) -> list[Stage]:
         stages.append(Stage("parametric instability", 15.0, _stability))
         if settings.separation_speeds > 0:
             stages.append(Stage("tooth separation", 12.0, _separation))
-        if settings.friction == "film":
+        if settings.friction != "constant":
             stages.append(Stage("friction of the oil film", 1.0, _film))
     if settings.with_losses:
         stages.append(Stage("losses", 5.0, _losses))

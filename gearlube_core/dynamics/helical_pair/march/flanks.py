@@ -5,7 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
-from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.greenwood_tripp_1971 import (
+    ARANA_FRICTION,
+    BOUNDARY_FRICTION,
+    SHARE_EXPONENT,
+    SurfaceParameters,
+)
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import plane_strain
 from gearlube_core.dynamics.ranges import RangeLimits
@@ -175,14 +180,18 @@ class MarchScalars(FlankScalars):
     Parameters
     ----------
     friction_updates_per_mesh_period : int
-        How often friction "film" is computed again at each contact point, 4 to 4096; frozen in
+        How often friction of films is computed again at each contact point, 4 to 4096; frozen in
         between.
+    boundary_friction, share_exponent : float
+        Of the friction "arana_2019", see `flank_laws.AranaShare` [-].
     film_limiting_slope : float
         Limiting shear stress of a solved film over pressure [-], 0 for none: the film model knows
         none, so contacts whose mean stress comes near it count as outside.
     """
 
     friction_updates_per_mesh_period: Annotated[int, Number("1", 4, 4096)] = 16
+    boundary_friction: Annotated[float, BOUNDARY_FRICTION] = ARANA_FRICTION
+    share_exponent: Annotated[float, SHARE_EXPONENT] = 1.0
     film_limiting_slope: Annotated[float, LIMITING_SLOPE] = 0.0
 
 
@@ -191,7 +200,7 @@ class MarchConstants(NamedTuple):
 
     flanks: FlankConstants
     teeth: float  # of the pinion
-    friction_form: float  # -1 off, 0 constant, 1 film
+    friction_form: float  # -1 off, 0 constant, 1 film, 2 film with Arana's share
     mu: float  # of the constant form [-]
     refreshes: float  # of the film's friction in a mesh period
     film: float  # place in FILM_MODELS

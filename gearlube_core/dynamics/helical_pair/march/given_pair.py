@@ -8,7 +8,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.greenwood_tripp_1971 import (
+    FLANK_SIGMA_OVER_BETA,
+    FLANK_XI_BETA_SIGMA,
+    SurfaceParameters,
+)
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.dynamics.helical_pair.march.flanks import FlankConstants, MarchConstants
 from gearlube_core.dynamics.helical_pair.mesh.mesh_damping import damping_factor
@@ -19,6 +23,8 @@ from gearlube_core.helical_geometry.gear_body import SupportStiffness
 from gearlube_core.kernels.flat_tuples import tuple_from_array, tuple_to_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantParameters
+
+ARANA = 2.0  # friction form, see `MarchConstants`
 
 
 class GivenBody(NamedTuple):
@@ -62,6 +68,8 @@ class MarchChoices(NamedTuple):
 
     friction_form: float  # see `MarchConstants`
     friction_coefficient: float  # [-]
+    boundary_friction: float  # of Arana's share [-]
+    share_exponent: float  # likewise
     roughness_rms: float  # [m]
     backlash: float  # [m]
     mesh_damping_ratio: float  # [-]
@@ -160,7 +168,13 @@ def write_constants(given: Array, oil: Array, choices: Array, constants: Array) 
             chosen.friction_updates_per_mesh_period,
             chosen.film,
             chosen.film_limiting_slope,
-            gear_flanks(chosen.roughness_rms),
+            SurfaceParameters(
+                chosen.roughness_rms,
+                FLANK_XI_BETA_SIGMA,
+                FLANK_SIGMA_OVER_BETA,
+                chosen.share_exponent if chosen.friction_form == ARANA else 0.0,
+                chosen.boundary_friction,
+            ),
             pair.solid,
             of_oil.parameters,
             RangeLimits(

@@ -13,6 +13,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import ROUGHNESS
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, Solid, solid_parameters
 from gearlube_core.dynamics.helical_pair.march.flanks import LINES_MAX, MarchConstants, MarchScalars
 from gearlube_core.dynamics.helical_pair.march.given_pair import (
+    ARANA,
     GivenBody,
     GivenOil,
     GivenPair,
@@ -36,12 +37,12 @@ from gearlube_core.number import Checked, Number, check_fields, constants_of
 from gearlube_core.oil.lubricant import Lubricant
 
 Form = Literal["twelve_dof", "six_dof"]
-Friction = Literal["film", "constant", "off"]
+Friction = Literal["film", "constant", "off", "arana_2019"]
 Equations = Literal["consistent", "he_2007"]
 Film = Literal["formula", "solved"]
 
 # what the constants of the march call the options
-FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0}
+FRICTION_FORMS = {"off": -1.0, "constant": 0.0, "film": 1.0, "arana_2019": ARANA}
 HELD = {"twelve_dof": 0.0, "six_dof": 1.0}
 LINE_WORK = {"consistent": 1.0, "he_2007": 0.0}
 
@@ -90,8 +91,9 @@ class HelicalMarchParameters(MarchScalars):
     mesh : LineMesh
         Stiffness density and offset; both flanks have the same.
     pinion, gear : Body
-    friction : {"film", "constant", "off"}
-        Mixed friction of the film at every contact point; Coulomb with one coefficient; none.
+    friction : {"film", "constant", "off", "arana_2019"}
+        Mixed friction of the film at every contact point, asperities by Greenwood and Tripp;
+        Coulomb with one coefficient; none; "film" with the share of asperities of Arana et al.
     friction_coefficient : float
         mu of "constant" [-].
     film : {"formula", "solved"}

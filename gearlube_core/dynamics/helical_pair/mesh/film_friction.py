@@ -23,7 +23,7 @@ from gearlube_core.dynamics.helical_pair.mesh.contact_points import (
 from gearlube_core.dynamics.helical_pair.mesh.mesh_wrench import point_moments
 from gearlube_core.film_model.chosen_model import of_kind
 from gearlube_core.film_model.model import LINE, FilmModel, shipped_model
-from gearlube_core.friction.flank_laws import FILM_MODELS
+from gearlube_core.friction.flank_laws import FILM_MODELS, AranaShare
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import LinePoints
 from gearlube_core.friction.solved_line import bounded_line_friction
@@ -55,6 +55,8 @@ class FilmFriction:
         Both flanks.
     roughness_rms : float
         Composite root-mean-square roughness of the flanks [m].
+    asperities : AranaShare, optional
+        Their law; default: that of Greenwood and Tripp.
     film : {"formula", "solved"}
         As in `HelicalMarchParameters`.
     line_film_model : FilmModel, optional
@@ -65,6 +67,7 @@ class FilmFriction:
     oil_temperature: float
     solid: Solid
     roughness_rms: float
+    asperities: AranaShare | None = None
     film: Literal["formula", "solved"] = "formula"
     line_film_model: FilmModel | None = None
 
@@ -77,9 +80,10 @@ class FilmFriction:
 
     def constants(self) -> FilmConstants:
         """Return what the kernels take."""
+        flanks = gear_flanks(self.roughness_rms)
         return FilmConstants(
             self.oil.state(self.oil_temperature),
-            gear_flanks(self.roughness_rms),
+            flanks if self.asperities is None else self.asperities.flanks(flanks),
             solid_parameters(self.solid, self.solid),
             self.film_models[LINE].copied_numbers() if self.film == "solved" else np.empty(0),
         )
