@@ -70,7 +70,7 @@ _OIL_DEFAULTS = {
     "alpha_temperature_degc": "40",
     "alpha_factor": f"{MEASURED_ALPHA_FACTOR:g}, of an estimate by class",
     "eyring_stress_mpa": "inferred",
-    "eyring_stress_factor": f"{EYRING_FACTOR:g}",
+    "eyring_stress_factor": f"{EYRING_FACTOR:g}, of an estimate that of Lambda",
     "limiting_coefficient": _CLASS,
     "limiting_coefficient_factor": f"{GIVEN_LIMIT_FACTOR:g}, of an estimate by class",
     "limiting_shear_stress_mpa": f"{1e-6 * BOUNDARY_STRESS:g}",
@@ -167,7 +167,7 @@ def _oils(page: Page) -> None:
         sources += [f"- `{name}`, {words}: {one.why}" for words, (one, _) in parts.items()]
     page.rows("`base_oil` | | Limiting", classes)
     page.paragraph("Each pair is a value and its factor. Sources:", "\n".join(sources))
-    page.fill("Eyring stress: factor {}. Values of", f"{EYRING_FACTOR:g}")
+    page.fill("A number for the Eyring stress: factor {}. Values of", f"{EYRING_FACTOR:g}")
     oils = []
     for name in (*lubricant_names(), *OilFile.shipped()):
         described = read_oil(name)

@@ -204,6 +204,7 @@ class _Expanded(NamedTuple):
     slope: float
     modulus: float
     modulus_slope: float
+    eyring_slope: float
 
 
 @kernel
@@ -225,6 +226,7 @@ def _no_expansion(
         oil.slope,
         oil.modulus,
         oil.modulus_slope,
+        oil.eyring_slope,
     )
     tuple_to_array(kept, expansion)
 
@@ -248,6 +250,7 @@ def _sum_of_forces(
         kept.slope,
         kept.modulus,
         kept.modulus_slope,
+        kept.eyring_slope,
     )
     F1_r1, F1_r2, F1_a, F2_r1, F2_r2, F2_a, lost = shaft_forces(bearings, motion, kept.f_ref, oil)
     return F1_r1 + F2_r1, F1_r2 + F2_r2, F1_a + F2_a, lost

@@ -33,7 +33,7 @@ from gearlube_core.friction.flank_data import AS_PRINTED, PRINTED_TRACTION, ZHOU
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.eyring_1936 import eyring_stress_ratio
 from gearlube_core.oil.formula_laws import bounded_stress, mean_slope
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState, eyring_stress_under
 
 SPEED_FLOOR = 1.0e-6  # m/s, film and heat of a resting contact are those at this floor
 BOUNDARY_SPEED = 1.0e-3  # m/s, boundary friction builds up over this sliding speed
@@ -303,7 +303,7 @@ def mixed_friction(
         lubricant.eta0,
         mean_slope(lubricant.viscosity, lubricant, mean_pressure),
         beta,
-        lubricant.tau0,
+        eyring_stress_under(lubricant, mean_pressure),
         lubricant.conductivity,
         zeta,
     )
@@ -376,9 +376,10 @@ def formula_doubt(
     asperities.
     """
     p, h = formula.mean_pressure, formula.film_thickness
-    newtonian_ratio = lubricant.eta0 * slip / (h * lubricant.tau0)
+    tau0 = eyring_stress_under(lubricant, p)
+    newtonian_ratio = lubricant.eta0 * slip / (h * tau0)
     exponent = mean_slope(lubricant.viscosity, lubricant, p) * p
-    stress = lubricant.tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
+    stress = tau0 * eyring_stress_ratio(newtonian_ratio, exponent)
     most = bounds.friction * stress / p * load
     thinner = formula.film_ratio * (1.0 - bounds.film)
     W_a, A_a = asperity_contact(load, load / p, thinner, surface, solid, form)

@@ -11,7 +11,7 @@ from gearlube_core.film.grubin_1949 import grubin_convention, grubin_geometry
 from gearlube_core.friction.flank_data import ContactGeometry
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.houpert_1985 import HoupertParameters, houpert_log_viscosity
-from gearlube_core.oil.lubricant_state import LubricantParameters
+from gearlube_core.oil.lubricant_state import CONTACT_PRESSURE, LubricantParameters
 
 INLET, EFFECTIVE, INLET_SHEAR_HEATING = 0.0, 1.0, 2.0
 FILM_TEMPERATURES = {
@@ -123,15 +123,20 @@ def thermal_eyring_oil(
 
     Notes
     -----
-    Table 2 of Karagiannis et al. 2012 lacks the Eyring stress; the library completes it.
+    Table 2 of Karagiannis et al. 2012 lacks the Eyring stress; the library completes it. A local
+    Eyring stress is that at 1 GPa.
     """
     offset = temperature - parameters.conductivity_temperature
+    tau0, log_viscosity = parameters.tau0, houpert_log_viscosity(law, 0.0, temperature)
+    if parameters.eyring_slope > 0.0:
+        grown = houpert_log_viscosity(law, CONTACT_PRESSURE, temperature) - log_viscosity
+        tau0 = 2.0 * parameters.eyring_slope * CONTACT_PRESSURE / grown
     return ThermalEyringOil(
-        houpert_log_viscosity(law, 0.0, temperature),
+        log_viscosity,
         temperature,
         law.S0,
         law.Z,
-        parameters.tau0,
+        tau0,
         parameters.tau_l0,
         parameters.gamma,
         parameters.conductivity + parameters.conductivity_slope * offset,

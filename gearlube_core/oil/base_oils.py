@@ -31,7 +31,7 @@ class BaseOil(NamedTuple):
     heat_capacity: ClassValue  # [J/(kg K)]
 
 
-EYRING_FACTOR = 2.0  # 2 to 5 MPa are in use for mineral gear oils, and alpha falls with pressure
+EYRING_FACTOR = 2.0  # of one number: 2 to 5 MPa are in use for mineral gear oils
 MEASURED_ALPHA_FACTOR = 1.15  # of a given alpha: between methods of measurement, assumed
 GIVEN_LIMIT_FACTOR = 1.2  # of a given limiting coefficient: assumed
 BOUNDARY_STRESS, BOUNDARY_FRICTION = 2.0e6, 0.17  # Pa and [-], of the library's hypoid oils
@@ -49,7 +49,7 @@ BASE_OILS = {
         ("modulus", f"{_SHAPE} paraffinic mineral oil, with this alpha"),
         ClassValue(-0.6, 1.2, "reference oil FVA 3 [wingertszahn_2023]"),
         ClassValue(1.0, 1.3, f"{_GOLD}; a naphthenic oil is 25 % higher"),
-        ClassValue(0.047, 1.2, f"{_HOGLUND}; a naphthenic oil has 0.053"),
+        ClassValue(0.047, 1.06, f"{_HOGLUND}, +-0.003; a naphthenic oil has 0.053"),
         ClassValue(0.134, 1.15, "reference oil FVA 3 [wingertszahn_2023]"),
         ClassValue(2000.0, 1.15, _USUAL),
     ),
@@ -58,7 +58,7 @@ BASE_OILS = {
         ("modulus_pao", f"{_SHAPE} polyalphaolefin, with this alpha"),
         ClassValue(-0.6, 1.2, _USUAL),
         ClassValue(1.0, 1.15, f"{_GOLD}; one PAO is 7 to 11 % lower"),
-        ClassValue(0.035, 1.2, _HOGLUND),
+        ClassValue(0.035, 1.09, f"{_HOGLUND}, +-0.003"),
         ClassValue(0.15, 1.15, _USUAL),
         ClassValue(2100.0, 1.15, _USUAL),
     ),
@@ -67,7 +67,7 @@ BASE_OILS = {
         ("modulus_pao", f"{_SHAPE} polyalphaolefin, with this alpha; {_NO_OIL}"),
         ClassValue(-0.7, 1.2, _USUAL),
         ClassValue(1.0, 1.3, f"[gold_2001]; {_NO_OIL}"),
-        ClassValue(0.035, 1.4, f"that of a polyalphaolefin; {_NO_OIL}"),
+        ClassValue(0.035, 1.2, f"that of a polyalphaolefin; {_NO_OIL}"),
         ClassValue(0.14, 1.15, _USUAL),
         ClassValue(2000.0, 1.15, _USUAL),
     ),
@@ -76,7 +76,7 @@ BASE_OILS = {
         ("modulus_pao", f"{_SHAPE} polyalphaolefin, with this alpha; {_NO_OIL}"),
         ClassValue(-0.75, 1.2, _USUAL),
         ClassValue(1.0, 1.3, f"[gold_2001]; {_NO_OIL}"),
-        ClassValue(0.044, 1.2, _HOGLUND),
+        ClassValue(0.044, 1.07, f"{_HOGLUND}, +-0.003"),
         ClassValue(0.15, 1.2, _USUAL),
         ClassValue(2000.0, 1.15, _USUAL),
     ),
@@ -84,7 +84,7 @@ BASE_OILS = {
 
 
 def eyring_stress_of(limiting_coefficient: float, alpha: float) -> float:
-    """Return the Eyring stress that goes with a limiting shear stress.
+    """Return the Eyring stress at ambient pressure that goes with a limiting shear stress.
 
     tau_E = 2 Lambda/alpha
 
@@ -102,8 +102,8 @@ def eyring_stress_of(limiting_coefficient: float, alpha: float) -> float:
 
     Notes
     -----
-    [arana_2019] evaluates alpha at the contact's pressure and temperature, where it is smaller:
-    4.5 MPa of the paraffinic oil there at ambient pressure are 7 MPa at 1 GPa and 60 degC.
+    Under pressure ln(eta/eta0)/p is smaller, see `stress_ratio`: 4.5 MPa of a paraffinic oil at
+    ambient pressure are 7 MPa at 1 GPa and 60 degC.
     Source: [bair_winer_1990], as quoted by [arana_2019 (12)].
 
     Examples

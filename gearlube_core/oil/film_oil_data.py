@@ -242,7 +242,8 @@ def film_oil_of(
     newtonian : bool
         True: leave the Eyring stress out.
     limiting_shear : bool
-        True: limit the shear stress to tau_l0 + gamma p, the strength of the oil's boundary layer.
+        True: limit the shear stress to tau_l0 + gamma p, the strength of the oil's boundary layer;
+        else an oil with a local Eyring stress limits it to Lambda p.
 
     Returns
     -------
@@ -270,6 +271,7 @@ def film_oil_of(
     law, eta0 = law.at(lubricant, temperature)
     alpha = ROELANDS_PRESSURE * lubricant.roelands_z * math.log(eta0 / ROELANDS_KAPPA)
     offset = temperature - lubricant.conductivity_temperature
+    Lambda = 0.0 if newtonian else lubricant.eyring_slope
     return film_oil(
         eta0=eta0,
         alpha=alpha,
@@ -277,7 +279,8 @@ def film_oil_of(
         density_law=density_law or lubricant.density_law or "dowson_higginson",
         shear_law=None if newtonian else lubricant.shear_law,
         rho0=lubricant.density,
-        eyring_stress=None if newtonian else lubricant.eyring_stress,
+        eyring_stress=None if newtonian or Lambda else lubricant.eyring_stress,
+        eyring_slope=Lambda,
         limiting_shear=(
             (lubricant.limiting_shear_stress, lubricant.boundary_friction)
             if limiting_shear

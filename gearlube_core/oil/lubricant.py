@@ -76,8 +76,9 @@ class Lubricant:
         it follows from the viscosity law, else from a constant Roelands exponent.
     alpha_is, alpha_pressure
         What `alpha` is, see `pressure_coefficient`; a mean slope goes to this pressure [Pa].
-    eyring_stress
-        Shear stress at which shear thinning begins [Pa].
+    eyring_stress, eyring_slope
+        Shear stress at which shear thinning begins [Pa]; with a slope Lambda above 0 [-] that at
+        ambient pressure, and under pressure 2 Lambda p/ln(eta/eta0), see `stress_ratio`.
     limiting_shear_stress, boundary_friction
         Shear strength of the boundary layer between asperities, tau = tau_l0 + gamma p: tau_l0 [Pa]
         and gamma [-].
@@ -130,6 +131,7 @@ class Lubricant:
     shear_law: Part | None = None
     alpha_is: AlphaIs = "slope"
     alpha_pressure: Annotated[float, Number("Pa", 1e7, 1e9, "200 MPa is 2e8 Pa.")] = MEAN_PRESSURE
+    eyring_slope: Annotated[float, Number("1", 0.0, 0.5, "0.05 is usual.")] = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -319,6 +321,7 @@ class Lubricant:
             roelands_z=float(self.roelands_z),
             alpha_share=float(self._alpha_share()),
             tau0=float(self.eyring_stress),
+            eyring_slope=float(self.eyring_slope),
             tau_l0=float(self.limiting_shear_stress),
             gamma=float(self.boundary_friction),
             conductivity=float(self.conductivity),

@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws, law_at
+from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws, law_at, mean_slope
 from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
 from gearlube_core.oil.roelands_1966 import pressure_viscosity_coefficient
 from gearlube_core.oil.walther_1931 import walther_viscosity
+
+CONTACT_PRESSURE = 1e9  # Pa, where a local Eyring stress is taken as the oil's one number
 
 
 class LubricantParameters(NamedTuple):
@@ -20,6 +22,7 @@ class LubricantParameters(NamedTuple):
     roelands_z: float  # [-]
     alpha_share: float  # alpha of films over the slope of ln eta by Roelands [-]
     tau0: float  # Eyring stress [Pa]
+    eyring_slope: float  # Lambda of a local one [-]; 0: tau0
     tau_l0: float  # limiting shear stress at zero pressure [Pa]
     gamma: float  # boundary friction: slope of limiting shear stress with pressure [-]
     conductivity: float  # at conductivity_temperature [W/(m K)]
@@ -36,7 +39,7 @@ class LubricantState(NamedTuple):
     alpha: float  # pressure-viscosity coefficient of films [1/Pa]
     beta: float  # -d ln eta0 / dT [1/K]
     nu: float  # kinematic viscosity [m2/s]
-    tau0: float  # Eyring stress [Pa]
+    tau0: float  # Eyring stress [Pa]; of a local one that at 1 GPa
     tau_l0: float  # limiting shear stress at zero pressure [Pa]
     gamma: float  # boundary friction [-]
     conductivity: float  # [W/(m K)]
@@ -45,6 +48,7 @@ class LubricantState(NamedTuple):
     slope: float  # of ln eta at ambient pressure by Roelands, with the same alpha [1/Pa]
     modulus: float = 0.0  # A of the pressure factor [Pa]; 0: the law of each formula
     modulus_slope: float = 0.0  # B [-]
+    eyring_slope: float = 0.0  # Lambda of a local Eyring stress [-]; 0: tau0 at all pressures
     viscosity: Any = FORMULA_LAWS.viscosity  # law over pressure, see `formula_laws`
     shear: Any = FORMULA_LAWS.shear  # law of shear, likewise
 
@@ -83,6 +87,9 @@ def lubricant_state(
     A, B = modulus_at(parameters.factor, temperature)
     if A > 0.0:
         alpha = film_coefficient(A, B)
+    tau0, Lambda = parameters.tau0, parameters.eyring_slope
+    if Lambda > 0.0:
+        tau0 = 2.0 * Lambda * (A + B * CONTACT_PRESSURE if A > 0.0 else 1.0 / alpha)
     offset = temperature - parameters.conductivity_temperature
     conductivity = parameters.conductivity + parameters.conductivity_slope * offset
     return LubricantState(
@@ -90,7 +97,7 @@ def lubricant_state(
         alpha,
         beta,
         nu,
-        parameters.tau0,
+        tau0,
         parameters.tau_l0,
         parameters.gamma,
         conductivity,
@@ -99,6 +106,29 @@ def lubricant_state(
         alpha / parameters.alpha_share,
         A,
         B,
+        Lambda,
         law_at(laws.viscosity, eta0, alpha),
         laws.shear,
     )
+
+
+@kernel
+def eyring_stress_under(oil: LubricantState, p: float) -> float:
+    """Return the Eyring stress at a mean pressure above zero [Pa].
+
+    tau_E = 2 Lambda p/ln(eta/eta0), or the oil's one number
+
+    Notes
+    -----
+    eta by the law that a formula takes. Source: [bair_winer_1990], as quoted by [arana_2019 (12)].
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.oil_file import read_oil
+    >>> oil = read_oil("iso_vg_220_pao").lubricant.state(353.15)
+    >>> round(1e-6 * eyring_stress_under(oil, 1e9), 1)  # MPa at 1 GPa and 80 degC
+    8.3
+    """
+    if oil.eyring_slope == 0.0:
+        return oil.tau0
+    return 2.0 * oil.eyring_slope / mean_slope(oil.viscosity, oil, p)

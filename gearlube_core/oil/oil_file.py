@@ -20,7 +20,13 @@ from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, Se
 from gearlube_core.oil.base_oils import BASE_OILS
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
-from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
+from gearlube_core.oil.named_laws import (
+    DensityLaw,
+    EyringShear,
+    ShearLaw,
+    ViscosityLaw,
+    chosen_laws,
+)
 from gearlube_core.oil.pressure_coefficients import AlphaIs
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
 from gearlube_core.oil.viscometer import measured_law
@@ -311,6 +317,8 @@ class OilFile(InputFile):
             laws["viscosity_law"] = own
             notes.append(InputNote("viscosity_law", own.name, "", origin, why))
         values: SheetValues = sheet_values(given)
+        if not isinstance(laws.get("shear_law"), EyringShear | None):
+            values.data["eyring_slope"] = 0.0  # its unit of stress is one number
         for law in laws.values():
             numbers = law.notes("law_numbers.", self.law_numbers or {})
             if law is own and self.viscometer is not None:

@@ -254,7 +254,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         base.limiting_coefficient.why,
     )
     own_limit = "limiting_coefficient" in given
-    notes.value(
+    limit_factor = notes.value(
         "limiting_coefficient_factor",
         GIVEN_LIMIT_FACTOR if own_limit else base.limiting_coefficient.factor,
         "assumed",
@@ -264,14 +264,14 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "eyring_stress_mpa",
         1e-6 * eyring_stress_of(limit, alpha),
         "inferred",
-        "2 limiting_coefficient/alpha, Bair and Winer 1990",
+        "2 limiting_coefficient/alpha, Bair and Winer 1990; it grows with pressure",
     )
     own_stress = "eyring_stress_mpa" in given
     eyring_factor = notes.value(
         "eyring_stress_factor",
-        EYRING_FACTOR,
+        EYRING_FACTOR if own_stress else limit_factor,
         "assumed",
-        "one number without scatter" if own_stress else "2 to 5 MPa in use",
+        "one number without scatter" if own_stress else "that of the limiting coefficient",
     )
     junctions = "of the hypoid oils of the library"
     boundary_stress = 1e6 * notes.value(
@@ -296,6 +296,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "alpha_pressure": to,
         "alpha_factor": alpha_factor,
         "eyring_stress": eyring,
+        "eyring_slope": 0.0 if own_stress else limit,
         "eyring_stress_factor": eyring_factor,
         "limiting_shear_stress": boundary_stress,
         "boundary_friction": friction,

@@ -3,24 +3,38 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
+from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
+from gearlube_core.contact.hertz import hertz_ellipse
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain_of
 from gearlube_core.ehl.line.energy import FilmFields, fill_shear
 from gearlube_core.ehl.line.problem import LineSettings
 from gearlube_core.ehl.line.rows import RowCoefficients, fill_rows, local_rows
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.ehl.line.traction import fill_mean_stress
 from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_data import CONSISTENT
+from gearlube_core.friction.line_points import line_friction
+from gearlube_core.friction.mixed_friction import FormulaBounds, formula_doubt
+from gearlube_core.friction.traction_fit import steel_on_steel
 from gearlube_core.oil.eyring_1936 import Eyring
-from gearlube_core.oil.film_oil import stress_ratio, thermal_viscosity
-from gearlube_core.oil.film_oil_data import film_oil
+from gearlube_core.oil.film_oil import stress_ratio, thermal_viscosity, viscosity
+from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
+from gearlube_core.oil.lubricant_state import eyring_stress_under
 from gearlube_core.oil.modulus_law import ModulusLaw, NaphthenicModulus, PolyalphaolefinModulus
+from gearlube_core.oil.oil_file import OilFile
 from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
 
 WARM = 333.15  # K
+RIB = RibParameters(0.03, 0.02, 0.2, 0.3, 0.2, 1.0, 1e-8, 1.9, 0.99, 0.15, 2.3e11)
 
 
 def local_stress(oil, p: float, cooling: float = 1.0) -> float:
@@ -136,6 +150,75 @@ def test_newton_steps_of_a_line_end_quadratically():
     # the share that a step leaves falls with the step; a derivative without a part keeps it
     small = last[last < 1e-3]
     assert np.all(small[1:] < 0.03 * small[:-1])
+
+
+SHEET = {
+    "name": "a sheet",
+    "base_oil": "pao",
+    "density_kg_m3": 850.0,
+    "viscosity_40_degc_mm2_s": 220.0,
+    "viscosity_100_degc_mm2_s": 25.0,
+}
+
+
+def sheet_oil(**given):
+    return OilFile.from_data(SHEET | given, "the test").described().lubricant
+
+
+@each("p", [2e8, 1e9])
+def test_formulas_and_films_of_a_sheet_have_one_stress(p):
+    state = sheet_oil().state(WARM)
+    film = film_oil_of(sheet_oil(), WARM)
+    expected = 2.0 * 0.035 * p / math.log(viscosity(film, p) / film.eta0)
+    assert eyring_stress_under(state, p) == pytest.approx(expected, rel=1e-12)
+    assert local_stress(film, p) == pytest.approx(expected, rel=1e-12)
+    assert film.limit_slope == 0.035
+
+
+@each("given", [{"eyring_stress_mpa": 5.5}, {"shear_law": "newtonian", "eyring_stress_mpa": 5.5}])
+def test_a_number_on_the_sheet_holds_at_all_pressures(given):
+    oil = sheet_oil(**given)
+    assert [eyring_stress_under(oil.state(WARM), p) for p in (1e8, 2e9)] == [5.5e6, 5.5e6]
+    assert film_oil_of(oil, WARM).eyring_slope == 0.0
+
+
+def test_an_own_shear_law_keeps_its_one_stress():
+    oil = sheet_oil(shear_law="newtonian")
+    assert film_oil_of(oil, WARM) == film_oil_of(sheet_oil(), WARM, newtonian=True)
+
+
+def test_friction_formulas_take_the_stress_of_their_own_pressure():
+    """As those of an oil whose one stress is that of the pressure of the contact."""
+    local = sheet_oil().state(WARM)
+    surface, solid = gear_flanks(2e-7), steel_on_steel()
+    for load in (1e5, 8e5):
+        line = load, 0.02, 8.0, 1.5
+        found = line_friction(*line, local, surface, solid)
+        tau0 = eyring_stress_under(local, found.mean_pressure)
+        constant = local._replace(tau0=tau0, eyring_slope=0.0)
+        assert found == line_friction(*line, constant, surface, solid)
+        bounds = FormulaBounds(0.1, 1.1)
+        doubts = [
+            formula_doubt(load, 1.5, found, oil, surface, solid, CONSISTENT, bounds)
+            for oil in (local, constant)
+        ]
+        assert doubts[0] == doubts[1]
+        rib = RIB, 1e-3 * load, 300.0
+        p = hertz_ellipse(RIB.R_meridian, RIB.R_sliding, 0.5 * RIB.reduced_modulus, rib[1])[2]
+        one = local._replace(tau0=eyring_stress_under(local, p), eyring_slope=0.0)
+        assert rib_friction(*rib, local) == rib_friction(*rib, one)
+
+
+def test_error_bars_of_a_local_stress_are_those_of_lambda():
+    axle = replace(mohammadpour_2015_axle(), oil=sheet_oil())
+    one = next(one for one in uncertain_of(axle) if one.name == "eyring_stress")
+    # 0.003 of 0.035
+    assert one.factor == pytest.approx(1.0 + 0.003 / 0.035, abs=0.006)
+    more = changed_axle(one, axle, 2.0, np.ones(len(LOSS_SOURCES))).oil.state(WARM)
+    ratio = eyring_stress_under(more, 8e8) / eyring_stress_under(axle.oil.state(WARM), 8e8)
+    assert ratio == pytest.approx(one.factor, rel=1e-12)  # two standard deviations
+    own = replace(axle, oil=sheet_oil(limiting_coefficient=0.04))
+    assert {one.name: one.factor for one in uncertain_of(own)}["eyring_stress"] == 1.2
 
 
 @each(

@@ -286,6 +286,7 @@ def _drawn(
     oil = replace(
         oil.with_two_viscosities(nu[0], ends[0], nu[1], ends[1], name=oil.name),
         eyring_stress=oil.eyring_stress * by["eyring_stress"],
+        eyring_slope=oil.eyring_slope * by["eyring_stress"],
         alpha=oil.alpha * by["alpha"],
     )
     law = film.asperities

@@ -12,7 +12,7 @@ from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import bounded_stress, log_viscosity_under
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState, eyring_stress_under
 
 # where a file does not say
 RIB_HEIGHT = 0.15  # of the contact above the race, over the roller diameter; assumed
@@ -96,7 +96,8 @@ def rib_friction(rib: RibParameters, load: float, speed: float, oil: LubricantSt
     mu = share * rib.boundary_friction
     if film > 0.0 and share < 1.0:
         log_viscosity = log_viscosity_under(oil.viscosity, oil, p)
-        sheared = thermal_eyring_film(log_viscosity, oil.beta, oil.conductivity, oil.tau0, film, v)
-        ratio_of_film = bounded_stress(oil.shear, sheared.stress_ratio, oil.tau0, oil, p, v, film)
-        mu += (1.0 - share) * ratio_of_film * oil.tau0 / p
+        tau0 = eyring_stress_under(oil, p)
+        sheared = thermal_eyring_film(log_viscosity, oil.beta, oil.conductivity, tau0, film, v)
+        ratio_of_film = bounded_stress(oil.shear, sheared.stress_ratio, tau0, oil, p, v, film)
+        mu += (1.0 - share) * ratio_of_film * tau0 / p
     return RibFriction(mu * load * v, mu, film, ratio, share)

@@ -70,7 +70,9 @@ def _viscosity(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
 
 
 def _eyring(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
-    return replace(axle, oil=replace(axle.oil, eyring_stress=axle.oil.eyring_stress * by))
+    oil = axle.oil
+    oil = replace(oil, eyring_stress=oil.eyring_stress * by, eyring_slope=oil.eyring_slope * by)
+    return replace(axle, oil=oil)
 
 
 def _alpha(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:

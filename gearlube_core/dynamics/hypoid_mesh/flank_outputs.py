@@ -18,7 +18,7 @@ from gearlube_core.mesh_table.kernels import pair_channels
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import mean_slope
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState, eyring_stress_under
 
 _QUANTITIES = (
     Output("load", "N", "normal load", 1e3, "kN"),
@@ -152,7 +152,7 @@ def write_flanks(
                     oil.eta0,
                     mean_slope(oil.viscosity, oil, flank.mean_pressure),
                     oil.beta,
-                    oil.tau0,
+                    eyring_stress_under(oil, flank.mean_pressure),
                     oil.conductivity,
                 )
                 in_use = 1.0 if flank.film_ratio > LEAST_FILM_RATIO else 0.0

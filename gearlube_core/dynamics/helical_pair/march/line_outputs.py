@@ -24,7 +24,7 @@ from gearlube_core.friction.solved_line import BoundedLine
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Output
 from gearlube_core.oil.formula_laws import mean_slope
-from gearlube_core.oil.lubricant_state import LubricantState
+from gearlube_core.oil.lubricant_state import LubricantState, eyring_stress_under
 
 _BOUNDS = (
     Output("film_bound", "1", "bound of the film thickness, relative", 0.05),
@@ -218,7 +218,7 @@ def write_lines(
                         lubricant.eta0,
                         mean_slope(lubricant.viscosity, lubricant, state.mean_pressure),
                         lubricant.beta,
-                        lubricant.tau0,
+                        eyring_stress_under(lubricant, state.mean_pressure),
                         lubricant.conductivity,
                     )
                     with_film = 1.0 if p.friction_form > 0.0 else 0.0
