@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.stats import chi2, norm
 
-from docs.page import IMAGES, Page
+from docs.page import DOCS, IMAGES, Page
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.bearing.figures import LAW_NAMES
 from gearlube_core.bearings.bearing_file import BearingFile
@@ -23,6 +23,7 @@ from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.solver import solve_line
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film_model.model import FilmModel
+from gearlube_core.input_file.table import read_table
 from gearlube_core.oil.film_oil_data import film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -31,21 +32,7 @@ from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 FILE = BearingFile.named("wingertszahn_2023")
 OIL = Lubricant.named("fva_3")
 AXIAL = 6000.0  # N
-# [wingertszahn_2023], figures digitised by others: +-0.1 N m. Temperature of the outer ring [degC],
-# radial load [N], speed [rpm], torque [N m].
-MEASURED = (
-    (50.0, 0.0, 500, 1.30),
-    (50.0, 0.0, 2000, 2.95),
-    (50.0, 0.0, 4000, 3.75),
-    (50.0, 6500.0, 500, 1.50),
-    (50.0, 6500.0, 1000, 1.95),
-    (50.0, 6500.0, 2000, 2.50),
-    (50.0, 6500.0, 4000, 3.25),
-    (42.0, 6500.0, 500, 2.00),
-    (42.0, 6500.0, 1000, 2.65),
-    (42.0, 6500.0, 2000, 3.50),
-    (42.0, 6500.0, 4000, 4.45),
-)
+MEASURED = DOCS / "measured"  # tables and their sources
 LAWS = (
     "zhou_hoeprich",
     "palmgren",
@@ -55,14 +42,8 @@ LAWS = (
     "biboulet_houpert",
     "solved_films",
 )
-# [manjunath_2023]: 32008 with FVA 3A, 12.85 kN axial. Two readings by others of one figure at the
-# speeds [rpm] and oil temperatures [degC]; they differ by up to a factor of two. Torque [N m].
-SPEEDS_32008 = (200, 400, 600, 1000, 1400, 1800, 2200)
-READINGS_32008 = {
-    55.0: ((0.62, 0.48, 0.63, 0.97, 1.03, 1.05, 1.07), (0.46, 0.45, 0.49, 0.58, 0.71, 0.85, 1.07)),
-    65.0: ((0.83, 0.42, 0.45, 0.77, 0.82, 0.90, 0.95), (0.42, 0.43, 0.48, 0.55, 0.65, 0.77, 0.95)),
-}
-# rollers 6.846 to 6.131 mm thick, whose apex gives the pitch diameter; no data of the rib
+# [manjunath_2023]: rollers 6.846 to 6.131 mm thick, whose apex gives the pitch diameter; no data of
+# the rib
 BEARING_32008 = BearingGeometry(
     bore_diameter=40e-3,
     outside_diameter=68e-3,
@@ -87,7 +68,15 @@ class Point(NamedTuple):
     torque: float
 
 
-POINTS = tuple(Point(*one) for one in MEASURED)
+POINTS = tuple(
+    Point(
+        row.number("temperature_degc"),
+        row.number("radial_load_n"),
+        row.whole("speed_rpm", 0, 9999),
+        row.number("friction_torque_n_m"),
+    )
+    for row in read_table(MEASURED / "bearing_32216.csv")
+)
 
 
 def loss(point: Point, geometry: Any = None, **model: Any) -> BearingLoss:
@@ -108,22 +97,44 @@ def ratios(law: str) -> np.ndarray:
     return np.array([loss(point, law=law).torque / point.torque for point in POINTS])
 
 
+class Read(NamedTuple):
+    """A torque of the second bearing [N m], as two others read it from one figure."""
+
+    degc: float
+    rpm: float
+    readings: tuple[float, float]
+
+    @property
+    def torque(self) -> float:
+        """Return the geometric mean of both readings [N m]."""
+        return math.sqrt(math.prod(self.readings))
+
+    def computed(self, law: str) -> float:
+        """Return the torque by a law [N m]."""
+        return bearing_loss(
+            BEARING_32008,
+            Lubricant.named("fva_3a"),
+            LossModel(law=law),
+            speed=rpm_to_rads(self.rpm),
+            axial_load=12850.0,
+            radial_load=0.0,
+            temperature=celsius_to_kelvin(self.degc),
+        ).torque
+
+
+POINTS_32008 = tuple(
+    Read(
+        row.number("temperature_degc"),
+        row.number("speed_rpm"),
+        (row.number("reading_1_n_m"), row.number("reading_2_n_m")),
+    )
+    for row in read_table(MEASURED / "bearing_32008.csv")
+)
+
+
 def ratios_32008(law: str) -> np.ndarray:
     """Return computed over measured torque of the second bearing, the mean of both readings."""
-    found = []
-    for degc, readings in READINGS_32008.items():
-        for rpm, *both in zip(SPEEDS_32008, *readings, strict=True):
-            torque = bearing_loss(
-                BEARING_32008,
-                Lubricant.named("fva_3a"),
-                LossModel(law=law),
-                speed=rpm_to_rads(rpm),
-                axial_load=12850.0,
-                radial_load=0.0,
-                temperature=celsius_to_kelvin(degc),
-            ).torque
-            found.append(torque / math.sqrt(math.prod(both)))
-    return np.array(found)
+    return np.array([point.computed(law) / point.torque for point in POINTS_32008])
 
 
 def wanted_factor(law: str) -> float:

@@ -21,6 +21,7 @@ from gearlube_core.ehl.transient.level import FilmConditions
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.problem import MovingFilm
 from gearlube_core.ehl.transient.steady import solve_steady_film
+from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil
 
 logger = logging.getLogger("docs.ehl")
@@ -44,6 +45,7 @@ class CavityCase:
     slide_roll: float  # (u_cavity - u_other)/(u_cavity + u_other)
     depth: float  # [m]
     cavity_radius: float  # [m]
+    oil: FilmOil = OIL
 
     @property
     def cavity_speed(self) -> float:
@@ -71,7 +73,7 @@ class CavityCase:
 
         return MovingFilm(
             conditions=conditions,
-            lubricant=OIL,
+            lubricant=self.oil,
             contact_modulus=MODULUS,
             x_limits=(-_INLET * A, _OUTLET * A),
             y_limits=(-_SIDE * A, _SIDE * A),

@@ -1,151 +1,226 @@
-"""Rewrite the spectrum of docs/measured_file.md: python -m docs.measured.make [workdir].
+"""Put numbers into docs/measured.md: python -m docs.measured.make [DIR] [--present].
 
-From the made data of `gearlube measured --example` to the contact of the measured flanks, the mesh
-table with the errors of single teeth and the axle that runs with it: some five minutes. What is
-finished is kept in the folder given as argument, by default build/measured.
+A quarter of an hour of one processor the first time. Films are kept in the folder given as
+argument, by default build/measured: delete it after a change of films or oils. With --present
+nothing is solved, and page and figure follow from points.csv and others.json.
 """
 
 from __future__ import annotations
 
-import csv
+import json
 import math
-import shutil
-from dataclasses import replace
+import subprocess
+import sys
+from collections.abc import Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
-from docs.page import IMAGES, begin
-from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
-from gearlube.studies.contact.run import run_contact
-from gearlube.studies.measured.run import run_measured
-from gearlube.studies.measured.teeth import run_tooth_errors
-from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle import OUTPUT_INDEX, HypoidAxle, mohammadpour_2015_axle
-from gearlube_core.hypoid_contact.contact_dataset import ContactSettings
-from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
-from gearlube_core.hypoid_geometry.measured.measured_flanks import EXAMPLE
-from gearlube_core.mesh_table.netcdf import read_mesh_table
-from gearlube_core.mesh_table.table import MeshTable
-from gearlube_core.spectra import AngleWindow, order_spectrum, resample
+from docs.measured.points import (
+    Point,
+    as_before,
+    bearings,
+    exponents,
+    fva_3,
+    mourier,
+)
+from docs.page import IMAGES, ROOT, Page, begin
+from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
+from gearlube.studies.helical.pair_losses import losses_dataset
+from gearlube.studies.helical.settings import HelicalSettings
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.oil.film_laws import log_viscosity
+from gearlube_core.oil.film_oil_data import film_oil_of
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.oil.oil_file import read_oil
+from gearlube_core.storage.atomic_file import write_text
+from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
-FILE = EXAMPLE / "axle_17.toml"
-NUMBERS = Path(__file__).with_name("spectrum.csv")
-PICTURE, TEETH_PICTURE = "measured_spectrum.png", "measured_teeth.png"
-CYCLE = CycleSettings(torques=(20.0, 50.0, 100.0, 200.0), positions=12)
-SPEED, TORQUE = 145.0, 60.0  # of the pinion: about 60 km/h [rad/s], [N.m]
-HOLD = 0.3  # N.m s/rad, of the wheel on its mean speed; the mesh mode does not feel it
-OIL = 368.15  # K
-STEP = 5e-5  # s
-SETTLING = 1.0  # s
-TURNS = 36  # of the pinion: the hunting turn
-SAMPLES = 512  # a turn
-COLUMNS = ("alike_n", "differing_n")
-_LEAST = 1e-3  # N, foot of the lines
-# order of the pinion: what it is
-LINES = {
-    "1": (1.0, "pinion, once a turn"),
-    "12": (12.0, "mesh less one of the pinion"),
-    "13 - 13/36": (13.0 - 13 / 36, "mesh less one of the gear"),
-    "13": (13.0, "mesh"),
-    "13 + 13/36": (13.0 + 13 / 36, "mesh plus one of the gear"),
-    "14": (14.0, "mesh plus one of the pinion"),
-    "31": (31.0, "31 waves of the pinion"),
-    "83 x 13/36": (83 * 13 / 36, "83 waves of the gear"),
-}
+KEPT, OTHERS = (Path(__file__).with_name(name) for name in ("points.csv", "others.json"))
+FIGURE = IMAGES / "measured.png"
+PRESSURE, DEGC = 0.92e9, 110.0  # of the viscosity that is shown
 
 
-def spectrum(table: MeshTable) -> tuple[Array, Array]:
-    """Return orders of the pinion and amplitudes of the mesh force [N], over the hunting turn."""
-    axle = HypoidAxle(replace(mohammadpour_2015_axle(), mesh=table))
-    ratio = table.ratio
-    axle.initialise(
-        pinion_speed=SPEED,
-        pinion_torque=TORQUE,
-        wheel_torque=TORQUE * ratio,
-        oil_temperature=OIL,
+def others(work: Path) -> dict[str, Any]:
+    """Return the commit that predicts, exponents between discs, what the oil changes."""
+    git = ["git", "merge-base", "HEAD", "main"]
+    done = subprocess.run(git, cwd=ROOT, capture_output=True, text=True, check=True)
+    found: dict[str, Any] = {"commit": done.stdout[:8]}
+    found |= {f"discs_{name}": [*map(float, one)] for name, one in exponents(work).items()}
+    pao = Lubricant.named("arana_2019_pao100")
+    oils = [film_oil_of(one, celsius_to_kelvin(DEGC)) for one in (as_before(pao), pao)]
+    found["pao_viscosity"] = [
+        one.eta0 * math.exp(log_viscosity(one.viscosity, PRESSURE, 1.0)[0]) for one in oils
+    ]
+    sheet = read_oil("iso_vg_220_pao").lubricant
+    found["pair_sliding"] = [_sliding(one) for one in (as_before(sheet), sheet)]
+    return found
+
+
+def _sliding(oil: Lubricant) -> float:
+    """Return the loss by sliding of a smooth pair, by formulas [W]."""
+    settings = HelicalSettings(
+        file=HelicalGearFile.named("he_2007"),
+        pinion_torque=226.0,
+        pinion_speed=rpm_to_rads(1000.0),
+        torques=(226.0,),
+        speeds=(rpm_to_rads(1000.0),),
+        oil=oil,
+        oil_temperature=celsius_to_kelvin(90.0),
+        roughness_rms=5e-8,
+        parts="losses",
+        draws=0,
     )
-    columns = [OUTPUT_INDEX[name] for name in ("pinion.angle", "mesh.force", "wheel.speed")]
-    rows = []
-    steps = math.ceil((SETTLING + 1.02 * TURNS * 2.0 * math.pi / SPEED) / STEP)
-    wheel_torque = 0.97 * TORQUE * ratio
-    for _ in range(steps):
-        axle.step(STEP, TORQUE, wheel_torque, OIL)
-        rows.append(axle.outputs[columns])
-        wheel_torque += STEP * HOLD * 20.0 * (rows[-1][2] - SPEED / ratio)
-    angle, force, _ = np.array(rows).T
-    window = AngleWindow(
-        start=float(angle[-1] - 2.0 * math.pi * (TURNS + 0.05)),
-        revolutions=TURNS,
-        samples_per_revolution=SAMPLES,
-        mean_speed=float((angle[-1] - angle[-2]) / STEP),
+    return float(losses_dataset(settings, settings.constant_mesh())["loss"].values.ravel()[0])
+
+
+def stored() -> tuple[list[Point], dict[str, Any]]:
+    """Return the points and the other numbers."""
+    points = [Point(*row) for row in pd.read_csv(KEPT).itertuples(index=False)]
+    return points, json.loads(OTHERS.read_text(encoding="utf-8"))
+
+
+def sets(points: Sequence[Point]) -> dict[str, list[Point]]:
+    """Return the points by their measurement, in their order."""
+    found: dict[str, list[Point]] = {}
+    for one in points:
+        found.setdefault(one.data, []).append(one)
+    return found
+
+
+def _misfit(ratios: Sequence[float]) -> tuple[str, str]:
+    """Return geometric mean and rms of logarithms as text."""
+    logs = np.log(ratios)
+    return f"{math.exp(logs.mean()):.2f}", f"{100.0 * math.sqrt(np.mean(logs**2)):.0f} %"
+
+
+def summary(name: str, points: Sequence[Point]) -> list[str]:
+    """Return the row of one measurement, or of all."""
+    before = [one.before / one.measured for one in points]
+    now = [one.predicted / one.measured for one in points]
+    inside = sum(one.inside for one in points)
+    return [name, str(len(points)), *_misfit(before), *_misfit(now), f"{inside} of {len(points)}"]
+
+
+def put(page: Page, points: Sequence[Point], more: dict[str, Any]) -> None:
+    """Put in tables and sentences."""
+    by = sets(points)
+    page.fill("the code of commit {} has predicted", more["commit"])
+    page.rows(
+        "measurement | points", [*(summary(*one) for one in by.items()), summary("all", points)]
     )
-    found = order_spectrum(resample(angle, force, window), window)
-    return found.order, found.amplitude
+    films = [one for one in points if one.unit == "nm"]
+    torques = [one for one in points if one.unit != "nm"]
+    worst = max(math.exp(abs(one.log_ratio)) for one in films)
+    page.fill("films are at most {} times off", f"{worst:.2f}")
+    page.fill(
+        "**Verdict: {} of {} measured films and {} of {} measured torques of bearings lie within "
+        "the bars of 95 %",
+        *(str(n) for part in (films, torques) for n in (sum(x.inside for x in part), len(part))),
+    )
+    powers = []
+    for own in list(by.values())[:2]:
+        u = np.log([float(one.where.removesuffix(" m/s")) for one in own])
+        h = np.log([(one.measured, one.predicted) for one in own])
+        powers += [f"{one:.2f}" for one in np.polyfit(u, h, 1)[0]]
+    page.fill(
+        "at 25 °C to the power {}, the solved ones {}; at 34 °C to the power {}, the solved ones "
+        "{}. An inlet",
+        *powers,
+    )
+    for name, head in (("FVA 3", "oil film of"), ("Mourier", "film of the ball")):
+        page.rows(head, [_row(one) for one in films if one.data.startswith(name)])
+    page.rows(
+        "exponent of |",
+        [
+            [words, measured, *(f"{x:.3f}" for x in more[f"discs_{name}"])]
+            for name, words, measured in (
+                ("speed", "speed times viscosity", "0.65"),
+                ("alpha", "pressure-viscosity coefficient", "0.58"),
+                ("load", "load", "-0.147 ± 0.013"),
+            )
+        ],
+    )
+    page.rows("torque of the bearing", [_row(one) for one in torques])
+    page.rows(
+        "without a measurement |",
+        [
+            [words, *(f"{x:.{digits}f}" for x in more[name])]
+            for name, words, digits in (
+                ("pair_sliding", "sliding loss of a smooth pair in a PAO [W]", 0),
+                ("pao_viscosity", "viscosity of PAO 100 at 0.92 GPa and 110 °C [Pa·s]", 1),
+            )
+        ],
+    )
 
 
-def tables(work: Path) -> tuple[MeshTable, MeshTable]:
-    """Return the mesh table of the measured flanks, with teeth alike and with their errors."""
-    flanks = run_measured(FILE, folder=work)
-    contact = work / "contact" / f"{flanks.file.name}.nc"
-    settings = ContactSettings(cycle=CYCLE)
-    run_contact(flanks.gear_file(), settings, folder=work / "contact")
-    teeth = run_tooth_errors(FILE, contact, folder=work / "teeth")
-    return read_mesh_table(contact), teeth.mesh_table
+def _row(one: Point) -> list[str]:
+    digits = 0 if one.unit == "nm" else 2
+    low, high = one.predicted / one.factor, one.predicted * one.factor
+    return [
+        f"{one.data}, {one.where}", f"{one.measured:.{digits}f}",
+        f"{100.0 * (one.uncertainty - 1.0):.0f} %", f"{one.before:.{digits}f}",
+        f"**{one.predicted:.{digits}f}**", f"{low:.{digits}f} to {high:.{digits}f}",
+        "yes" if one.inside else "**no**",
+    ]  # fmt: skip
 
 
-def picture(alike: tuple[Array, Array], differing: tuple[Array, Array]) -> Any:
-    """Return the spectra of the mesh force, teeth alike and with their errors."""
+def draw(points: Sequence[Point]) -> Any:
+    """Return films over speed, and predicted over measured values of all points."""
+    first, middles = 0, []
     with house_style():
         figure = new_figure(11.0, 4.6)
-        axes = figure.subplots()
-        for (order, amplitude), colour, label, width in (
-            (differing, VERMILLION, "teeth with pitch, eccentricity and waves", 1.0),
-            (alike, BLUE, "all teeth alike", 2.2),
-        ):
-            seen = (order > 0.2) & (order < 42.0)
-            axes.vlines(order[seen], _LEAST, amplitude[seen], color=colour, lw=width, label=label)
-        for mesh in (13.0, 26.0, 39.0):
-            axes.axvline(mesh, color=GREY, lw=0.8, zorder=0)
-        for place, text in (
-            (31.0, "31 waves per turn\nof the pinion"),
-            (83 * 13 / 36, "83 waves per turn\nof the gear"),
-        ):
-            top = float(np.interp(place, *differing))
-            axes.annotate(
-                text, (place, top), (place + (1.2 if place > 30.5 else -3.4), 3.0 * top),
-                fontsize=8.5, arrowprops={"arrowstyle": "-", "color": "black", "lw": 0.6},
-            )  # fmt: skip
-        axes.set(
-            yscale="log", xlim=(0.0, 42.0), ylim=(3e-2, 100.0), ylabel="mesh force, amplitude [N]",
-            xlabel="order (periods per turn of the pinion); grey: mesh orders",
+        left, right = figure.subplots(1, 2)
+        for (name, own), colour, marker in zip(sets(points).items(), SERIES, MARKERS, strict=False):
+            measured, known, predicted, factor = np.array(
+                [(one.measured, one.uncertainty, one.predicted, one.factor) for one in own]
+            ).T
+            if name.startswith("FVA 3"):
+                u = [float(one.where.removesuffix(" m/s")) for one in own]
+                left.errorbar(
+                    u, measured, measured * (known - 1.0), fmt=marker, color=colour, label=name
+                )
+                left.plot(u, predicted, color=colour)
+                ends = predicted / factor, predicted * factor
+                left.fill_between(u, *ends, color=colour, alpha=0.2)
+            ratio, both = predicted / measured, np.exp(np.hypot(np.log(factor), np.log(known)))
+            bars = ratio * (1.0 - 1.0 / both), ratio * (both - 1.0)
+            at = first + np.arange(len(own))
+            right.errorbar(at, ratio, bars, fmt=marker, color=colour, elinewidth=0.7)
+            middles.append(float(at.mean()))
+            first += len(own) + 1
+        left.set(
+            xscale="log", yscale="log", xlabel="mean speed of the surfaces [m/s]",
+            ylabel="central film [nm]", title="points measured, lines and bands predicted",
         )  # fmt: skip
-        axes.legend(loc="upper left")
+        left.legend()
+        right.axhline(1.0, color=GREY, lw=1.0)
+        right.set(
+            yscale="log", ylabel="predicted over measured",
+            title="all points; bars of prediction and measurement together, 95 %",
+        )  # fmt: skip
+        right.set_yticks([0.3, 0.5, 1.0, 2.0, 5.0], labels=["0.3", "0.5", "1", "2", "5"])
+        right.set_yticks([], minor=True)
+        names = [name.replace(", ", "\n").replace("ing ", "ing\n") for name in sets(points)]
+        right.set_xticks(middles, labels=names)
     return figure
 
 
-def lines_rows() -> list[list[str]]:
-    """Return the rows of the stored spectrum."""
-    with NUMBERS.open(encoding="utf-8", newline="") as file:
-        return [
-            [row["order"], row["what"], *(f"{float(row[name]):.2f}" for name in COLUMNS)]
-            for row in csv.DictReader(file)
-        ]
-
-
 def main() -> None:
-    """Run or resume the study; write the numbers and the pictures."""
+    """Predict all points, or take those that are stored; write numbers, page and figure."""
     work = begin("measured")
-    alike, differing = (spectrum(table) for table in tables(work))
-    picture(alike, differing).savefig(IMAGES / PICTURE)
-    shutil.copyfile(work / "teeth" / "tooth_errors.png", IMAGES / TEETH_PICTURE)
-    with NUMBERS.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["order", "what", *COLUMNS])
-        for name, (order, what) in LINES.items():
-            pair = (float(np.interp(order, *one)) for one in (alike, differing))
-            writer.writerow([name, what, *(f"{value:.3f}" for value in pair)])
+    if "--present" not in sys.argv:
+        table = pd.DataFrame(chain(fva_3(work), mourier(work), bearings()))
+        table.to_csv(KEPT, index=False, float_format="%.5g", lineterminator="\n")
+        write_text(json.dumps(others(work), indent=1) + "\n", OTHERS)
+    points, more = stored()
+    page = Page("measured")
+    put(page, points, more)
+    page.write()
+    draw(points).savefig(FIGURE, dpi=110)
 
 
 if __name__ == "__main__":

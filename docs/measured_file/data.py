@@ -1,4 +1,4 @@
-"""Make the measured data of gearlube measured --example: python -m docs.measured.data.
+"""Make the measured data of gearlube measured --example: python -m docs.measured_file.data.
 
 Nothing here was measured. The flanks are those of changed machine settings,
 with noise of the probe.
@@ -22,7 +22,7 @@ from gearlube_core.hypoid_geometry.measured.measured_flanks import EXAMPLE
 from gearlube_core.storage.atomic_file import write_text
 
 FOLDER = EXAMPLE
-MADE = "# made, not measured: python -m docs.measured.data"
+MADE = "# made, not measured: python -m docs.measured_file.data"
 NOISE_UM = 0.3
 TEETH: dict[Role, tuple[int, ...]] = {"pinion": (1, 5, 9), "gear": (1, 13, 25)}
 WAVES = (
