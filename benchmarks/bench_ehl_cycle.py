@@ -27,7 +27,7 @@ from scipy.interpolate import RectBivariateSpline
 from gearlube_core.ehl.gears.helical_film import EXIT_GRADING, HelicalFilm, march_helical_cycle
 from gearlube_core.ehl.transient.march import FilmMarch
 from gearlube_core.ehl.transient.solution import FilmSolution
-from gearlube_core.oil.film_oil import fill_properties
+from gearlube_core.oil.film_oil import film_properties
 from tests.helpers.jamali_2015 import jamali_2015_film
 
 Mesh = tuple[str, tuple[int, int], tuple[tuple[float, float], ...]]
@@ -99,10 +99,9 @@ def friction(film: HelicalFilm, found: FilmSolution) -> float:
     """Return the shear force of both signs, that of an Eyring film between even surfaces [N]."""
     oil = film.lubricant
     speed_1, speed_2 = film.surface_speeds(found.y, film.line(found.time))
-    properties = np.empty((4, found.pressure.size))
-    fill_properties(oil, np.ascontiguousarray(found.pressure).ravel(), *properties)
+    viscosity = film_properties(oil, np.ascontiguousarray(found.pressure))[0]
     rate = np.abs(speed_2 - speed_1) / (found.film * oil.shear.tau0)
-    stress = oil.shear.tau0 * np.arcsinh(properties[0].reshape(found.film.shape) * rate)
+    stress = oil.shear.tau0 * np.arcsinh(viscosity * rate)
     stress[found.pressure < LOADED] = 0.0
     return float(np.trapezoid(np.trapezoid(stress, found.x, axis=0), found.y))
 

@@ -81,34 +81,3 @@ BASE_OILS = {
         ClassValue(2000.0, 1.15, _USUAL),
     ),
 }
-
-
-def eyring_stress_of(limiting_coefficient: float, alpha: float) -> float:
-    """Return the Eyring stress at ambient pressure that goes with a limiting shear stress.
-
-    tau_E = 2 Lambda/alpha
-
-    Parameters
-    ----------
-    limiting_coefficient : float
-        Lambda, limiting shear stress of the film over pressure [-].
-    alpha : float
-        Pressure-viscosity coefficient [1/Pa].
-
-    Returns
-    -------
-    float
-        [Pa].
-
-    Notes
-    -----
-    Under pressure ln(eta/eta0)/p is smaller, see `stress_ratio`: 4.5 MPa of a paraffinic oil at
-    ambient pressure are 7 MPa at 1 GPa and 60 degC.
-    Source: [bair_winer_1990], as quoted by [arana_2019 (12)].
-
-    Examples
-    --------
-    >>> round(1e-6 * eyring_stress_of(0.047, 20.8e-9), 1)  # MPa
-    4.5
-    """
-    return 2.0 * limiting_coefficient / alpha

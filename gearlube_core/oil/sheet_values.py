@@ -18,7 +18,6 @@ from gearlube_core.oil.base_oils import (
     GIVEN_LIMIT_FACTOR,
     MEASURED_ALPHA_FACTOR,
     REFERENCE_DENSITY_DEGC,
-    eyring_stress_of,
 )
 from gearlube_core.oil.pressure_coefficients import MEAN_PRESSURE, AlphaIs
 from gearlube_core.oil.walther_1931 import (
@@ -262,7 +261,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
     )
     eyring = 1e6 * notes.value(
         "eyring_stress_mpa",
-        1e-6 * eyring_stress_of(limit, alpha),
+        2e-6 * limit / alpha,
         "inferred",
         "2 limiting_coefficient/alpha, Bair and Winer 1990; it grows with pressure",
     )

@@ -14,7 +14,7 @@ from gearlube_core.oil.eyring_1936 import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.oil.film_oil import (
     density,
     density_slope,
-    fill_properties,
+    film_properties,
     limiting_stress,
     pressure_viscosity,
     thermal_viscosity,
@@ -74,8 +74,7 @@ def test_density_of_dowson_and_higginson_at_one_gigapascal():
 def test_any_pressure_of_an_iteration_gives_a_finite_growing_viscosity():
     oil = film_oil(eta0=0.05, alpha=40e-9, law="barus")
     p = np.array([-1e12, -1e9, 0.0, 1e9, 4.9e9, 5.1e9, 1e11, 1e13])
-    eta, eta_p, rho, rho_p = (np.empty(p.size) for _ in range(4))
-    fill_properties(oil, p, eta, eta_p, rho, rho_p)
+    eta, _, rho, _ = film_properties(oil, p)
     assert np.all(np.isfinite(eta))
     assert np.all(np.diff(eta) >= 0.0)
     assert np.all(rho >= oil.rho0)

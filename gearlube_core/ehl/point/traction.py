@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.ehl.line.traction import fill_mean_stress
-from gearlube_core.oil.film_oil import FilmOil, fill_properties
+from gearlube_core.oil.film_oil import FilmOil, film_properties
 
 
 class PointTraction(NamedTuple):
@@ -58,8 +58,8 @@ def point_traction(
     Source: [jamali_2015 (3.29a)] [jamali_2015 (3.31)] along the sliding.
     """
     shape, p = pressure.shape, np.ascontiguousarray(pressure).ravel()
-    eta, eta_slope, rho, rho_slope, tau = (np.empty(p.size) for _ in range(5))
-    fill_properties(oil, p, eta, eta_slope, rho, rho_slope)
+    eta, _, rho, _ = film_properties(oil, p)
+    tau = np.empty(p.size)
     speed = math.hypot(*sliding)
     along = (sliding[0] / speed, sliding[1] / speed) if speed > 0.0 else (1.0, 0.0)
     slopes = np.gradient(pressure, x, y)

@@ -27,7 +27,7 @@ from gearlube_core.ehl.time_error import time_error_sentence
 from gearlube_core.ehl.transient.curves import FilmCurves
 from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.errors import FileError, ParameterError
-from gearlube_core.oil.film_oil import fill_properties
+from gearlube_core.oil.film_oil import film_properties
 from gearlube_core.storage.atomic_file import read_arrays, write_arrays
 from gearlube_core.units import labelled
 
@@ -357,13 +357,11 @@ def _mean_stress(film: HelicalFilm, solution: FilmSolution, sliding: Array) -> A
     slope = np.gradient(solution.pressure, solution.x, axis=0)
     oil, n = film.lubricant, solution.x.size
     stress = np.empty_like(solution.pressure)
-    eta, eta_slope, rho, rho_slope, tau = (np.empty(n) for _ in range(5))
-    void = np.zeros(n)
+    tau, void = np.empty(n), np.zeros(n)
     for j, slide in enumerate(sliding):
         p, h, dp = (
             np.ascontiguousarray(a[:, j]) for a in (solution.pressure, solution.film, slope)
         )
-        fill_properties(oil, p, eta, eta_slope, rho, rho_slope)
-        fill_mean_stress(p, dp, h, void, eta, float(slide), oil, tau)
+        fill_mean_stress(p, dp, h, void, film_properties(oil, p)[0], float(slide), oil, tau)
         stress[:, j] = tau
     return stress

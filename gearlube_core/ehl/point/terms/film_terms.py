@@ -32,38 +32,20 @@ Shear = FilmShear | NewtonianShear
 
 
 @dataclass(frozen=True, slots=True)
-class IsothermalOil:
-    """Oil at its own temperature, in the units of a grid."""
+class OilTerm:
+    """Oil in the units of a grid, at its own temperature or at those of a film."""
 
     oil: FilmOil
+    # `cooling_factor` of the temperature and the density's factor by heat, (ny, nx) [-]
+    warm: tuple[Array, Array] | None = None
 
     def properties(self, pressure: Array) -> Properties:
         """Return eta, d eta/dp, rho and d rho/dp at a pressure, of its shape [-]."""
-        return film_properties(self.oil, pressure, None)
+        return film_properties(self.oil, pressure, self.warm)
 
-    def heated(self, viscosity: Array, density: Array) -> HeatedOil:
-        """Return the oil at the temperatures of a film, see `HeatedOil`."""
-        return HeatedOil(self.oil, viscosity, density)
-
-
-@dataclass(frozen=True, slots=True)
-class HeatedOil:
-    """Oil at the temperatures of a film, in the units of a grid."""
-
-    oil: FilmOil
-    viscosity: Array  # thermal factor, `cooling_factor` of the temperature, (ny, nx) [-]
-    density: Array  # thermal factor, (ny, nx) [-]
-
-    def properties(self, pressure: Array) -> Properties:
-        """Return eta, d eta/dp, rho and d rho/dp at a pressure, of its shape [-]."""
-        return film_properties(self.oil, pressure, (self.viscosity, self.density))
-
-    def heated(self, viscosity: Array, density: Array) -> HeatedOil:
-        """Return the oil at other temperatures."""
-        return HeatedOil(self.oil, viscosity, density)
-
-
-OilTerm = IsothermalOil | HeatedOil
+    def heated(self, viscosity: Array, density: Array) -> OilTerm:
+        """Return the oil at temperatures with these factors, (ny, nx) [-]."""
+        return OilTerm(self.oil, (viscosity, density))
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +174,7 @@ class FilmTerms:
     """What acts in the film of one grid; `replace` gives another set.
 
     Every term has a null object that does no work: `UniformEntrainment`, `NoStorage`,
-    `NewtonianShear`, `NoSolids`, `AmbientBorder`, `ReynoldsCavitation`, `IsothermalOil`.
+    `NewtonianShear`, `NoSolids`, `AmbientBorder`, `ReynoldsCavitation`.
     """
 
     oil: OilTerm
@@ -231,7 +213,7 @@ class FilmTerms:
             layer = math.inf if problem.inlet_layer is None else problem.inlet_layer
             breaks = MassConservingCavitation.of(full, grid.metric, grid.dx, layer / scales.film)
         return cls(
-            oil=IsothermalOil(scales.oil(problem.lubricant)),
+            oil=OilTerm(scales.oil(problem.lubricant)),
             shear=film_shear(problem, scales, grid, sliding),
             entrainment=UniformEntrainment.of(grid.shape[0]),
             storage=NoStorage(np.zeros(grid.shape)),
