@@ -18,7 +18,7 @@ from gearlube_core.oil.film_laws import (
 )
 from gearlube_core.oil.film_oil import LEAST_PRESSURE, FilmOil, viscosity_cooling
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.named_laws import DensityLaw, Newtonian, ShearLaw, ViscosityLaw
+from gearlube_core.oil.named_laws import DensityLaw, EyringShear, Newtonian, ShearLaw, ViscosityLaw
 from gearlube_core.oil.oil_heat import OilHeat
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 
@@ -102,13 +102,14 @@ def film_oil(
     if temperature_exponent > 0.0:
         law = _warming_law(law, temperature_exponent)
     check_within("eyring_slope", eyring_slope, 0.0, 0.5)
-    limit, slope = (0.0, eyring_slope) if limiting_shear is None else limiting_shear
-    check_within("limiting_shear[0]", limit, 0.0, 1e10, "Pa", "5 MPa is 5e6 Pa.")
-    check_within("limiting_shear[1]", slope, 0.0, 1.0)
     viscosity = _viscosity_law(law, eta0, alpha)
     if eyring_slope > 0.0:
         eyring_stress = _ambient_stress(eyring_slope, eyring_stress, viscosity)
     shear = _shear_law(shear_law, eyring_stress)
+    Lambda = float(eyring_slope) if shear.tau0 > 0.0 else 0.0
+    limit, slope = (0.0, Lambda) if limiting_shear is None else limiting_shear
+    check_within("limiting_shear[0]", limit, 0.0, 1e10, "Pa", "5 MPa is 5e6 Pa.")
+    check_within("limiting_shear[1]", slope, 0.0, 1.0)
     return FilmOil(
         eta0=float(eta0),
         rho0=float(rho0),
@@ -121,7 +122,7 @@ def film_oil(
         expansion=float(heat.expansion),
         conductivity=float(heat.conductivity),
         heat_capacity=float(heat.heat_capacity),
-        eyring_slope=float(eyring_slope) if shear.tau0 > 0.0 else 0.0,
+        eyring_slope=Lambda,
     )
 
 
@@ -190,15 +191,16 @@ def _shear_law(law: Any, eyring_stress: float | None) -> Any:
     if isinstance(law, Newtonian):
         return NEWTONIAN
     if isinstance(law, ShearLaw):
-        if eyring_stress is None:
+        if eyring_stress is None and law.needs_stress:
             raise ParameterError(
                 f"eyring_stress is missing; the shear law {law.name} needs it. 5 MPa is 5e6 Pa."
             )
-        tau0 = check_within("eyring_stress", eyring_stress, 1e4, 1e12, "Pa", "5 MPa is 5e6 Pa.")
-        law = law(tau0)
+        tau0 = 1e6 if eyring_stress is None else eyring_stress
+        law = law(check_within("eyring_stress", tau0, 1e4, 1e12, "Pa", "5 MPa is 5e6 Pa."))
     elif eyring_stress is not None:
         raise ParameterError(
-            f"eyring_stress must be left out if shear_law is given, got {eyring_stress:g} Pa."
+            "eyring_stress and eyring_slope must be left out with a shear law of your own, got an "
+            f"Eyring stress of {eyring_stress:g} Pa."
         )
     if not isinstance(law, Eyring):
         _check_law("shear_law", law, "rate_ratio")
@@ -243,7 +245,7 @@ def film_oil_of(
         True: leave the Eyring stress out.
     limiting_shear : bool
         True: limit the shear stress to tau_l0 + gamma p, the strength of the oil's boundary layer;
-        else an oil with a local Eyring stress limits it to Lambda p.
+        else an oil with an `eyring_slope` Lambda limits it to Lambda p.
 
     Returns
     -------
@@ -271,7 +273,12 @@ def film_oil_of(
     law, eta0 = law.at(lubricant, temperature)
     alpha = ROELANDS_PRESSURE * lubricant.roelands_z * math.log(eta0 / ROELANDS_KAPPA)
     offset = temperature - lubricant.conductivity_temperature
-    Lambda = 0.0 if newtonian else lubricant.eyring_slope
+    limit = None
+    Lambda = 0.0 if newtonian else float(lubricant.eyring_slope)
+    if not isinstance(lubricant.shear_law, EyringShear | Newtonian | None):
+        limit, Lambda = (0.0, Lambda), 0.0  # its unit of stress is one number
+    if limiting_shear:
+        limit = float(lubricant.limiting_shear_stress), float(lubricant.boundary_friction)
     return film_oil(
         eta0=eta0,
         alpha=alpha,
@@ -281,11 +288,7 @@ def film_oil_of(
         rho0=lubricant.density,
         eyring_stress=None if newtonian or Lambda else lubricant.eyring_stress,
         eyring_slope=Lambda,
-        limiting_shear=(
-            (lubricant.limiting_shear_stress, lubricant.boundary_friction)
-            if limiting_shear
-            else None
-        ),
+        limiting_shear=limit,
         temperature=temperature,
         heat=OilHeat(
             conductivity=lubricant.conductivity + lubricant.conductivity_slope * offset,

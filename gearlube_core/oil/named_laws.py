@@ -78,6 +78,7 @@ class ShearLaw(Part):
     """A law of shear by name."""
 
     kind: ClassVar[Kind[ShearLaw]] = _kind("shear law")
+    needs_stress: ClassVar[bool] = True  # the Eyring stress of the oil
 
     @abstractmethod
     def __call__(self, tau0: float) -> Any:

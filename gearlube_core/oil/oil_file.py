@@ -22,7 +22,6 @@ from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
 from gearlube_core.oil.named_laws import (
     DensityLaw,
-    EyringShear,
     ShearLaw,
     ViscosityLaw,
     chosen_laws,
@@ -317,8 +316,6 @@ class OilFile(InputFile):
             laws["viscosity_law"] = own
             notes.append(InputNote("viscosity_law", own.name, "", origin, why))
         values: SheetValues = sheet_values(given)
-        if not isinstance(laws.get("shear_law"), EyringShear | None):
-            values.data["eyring_slope"] = 0.0  # its unit of stress is one number
         for law in laws.values():
             numbers = law.notes("law_numbers.", self.law_numbers or {})
             if law is own and self.viscometer is not None:

@@ -172,7 +172,7 @@ def test_line_film_of_rabinowitsch_shears_and_flows_as_its_law_says():
 
 
 def test_a_shear_law_beside_an_eyring_stress_is_refused():
-    with pytest.raises(ParameterError, match="eyring_stress must be left out"):
+    with pytest.raises(ParameterError, match="eyring_stress and eyring_slope must be left out"):
         film_oil(eta0=0.05, alpha=15e-9, shear_law=PLAIN, eyring_stress=1e6)
     with pytest.raises(ParameterError, match="tau0"):
         oil(PlainEyring(0.0))
