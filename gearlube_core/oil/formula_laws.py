@@ -51,7 +51,9 @@ class Printed(NamedTuple):
     def bounded_stress(
         self, stress: float, unit: float, oil: Any, p: float, slip: float, film: float
     ) -> float:
-        """Return the same."""
+        """Return the stress, at most Lambda p of an oil that has a Lambda."""
+        if oil.eyring_slope > 0.0:
+            return min(stress, oil.eyring_slope * p / unit)
         return stress
 
     @kernel

@@ -84,10 +84,10 @@ def test_the_factor_of_the_exponent_covers_other_laws_of_the_share():
 
 def test_slow_fzg_gears_rub_near_the_measured_boundary_coefficient():
     # 0.065 measured; some of the load is still on a film of 30 nm, and the same law without
-    # asperities that carry a share has half of it
+    # asperities that carry a share has three quarters of it
     slow = friction(0.5)
     assert slow.mean_coefficient == pytest.approx(0.065, rel=0.08)
-    assert friction(0.5, None).mean_coefficient < 0.6 * 0.065
+    assert friction(0.5, None).mean_coefficient < 0.8 * 0.065
 
 
 def test_films_of_fzg_gears_have_the_published_thickness():

@@ -8,11 +8,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
 from gearlube_core.ehl.line.problem import LineProblem, LineSettings
 from gearlube_core.ehl.line.thermal import ThermalSettings, thermal_line_on_grid
 from gearlube_core.ehl.point.contact_domain import elliptical_contact
 from gearlube_core.ehl.point.solver import solve_point_contact
+from gearlube_core.friction.flank_data import CONSISTENT
+from gearlube_core.friction.mixed_friction import mixed_friction
 from gearlube_core.oil.film_oil import viscosity
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of
 from gearlube_core.oil.lubricant import Lubricant
@@ -20,6 +23,7 @@ from gearlube_core.units import celsius_to_kelvin
 from tests.helpers.each import each
 
 BASE_OILS = ("arana_2019_n100", "arana_2019_m100", "arana_2019_pao100")
+SMOOTH = SurfaceParameters(sigma=1e-9, xi_beta_sigma=0.05, sigma_over_beta=0.001)
 HERTZ_PRESSURE, RADIUS, MODULUS = 1e9, 0.02, 227e9
 
 
@@ -70,7 +74,10 @@ def traction(name: str, speed: float, slide_roll: float) -> float:
         speed_2=speed * (1.0 + 0.5 * slide_roll),
     )
     steel = STEEL_MOHAMMADPOUR_2015
-    settings = LineSettings(nodes=257, tolerance=1e-7), ThermalSettings(tolerance=3e-3)
+    settings = (
+        LineSettings(nodes=257, tolerance=1e-7),
+        ThermalSettings(tolerance=3e-3, max_turns=80),
+    )
     warm = thermal_line_on_grid(problem, (steel, steel), *settings)
     assert warm.converged
     return warm.film.friction_coefficient
@@ -92,3 +99,15 @@ def test_heat_takes_traction_of_fast_films_in_much_sliding_and_not_of_slow_ones(
     fast = [traction("arana_2019_m100", 8.0, s) for s in (0.05, 0.2)]
     assert slow[1] > 1.1 * slow[0]
     assert fast[1] < 0.9 * fast[0]
+
+
+@each(("name", "Lambda"), [("arana_2019_n100", 0.053), ("fva_3", 0.047)])
+def test_formulas_limit_the_friction_of_an_oil_film_to_lambda(name, Lambda):
+    """A smooth flank under 2 GPa whose film of the naphthenic oil is far beyond its limit."""
+    oil = Lubricant.named(name).state(celsius_to_kelvin(40.0))
+    solid = solid_parameters(STEEL_MOHAMMADPOUR_2015, STEEL_MOHAMMADPOUR_2015)
+    # heat is left out: the film hardly slides
+    mu = mixed_friction(
+        100.0, 100.0, 2e9, 0.5e-6, 3.0, 0.05, 0.01, 5e-8, oil, SMOOTH, solid, CONSISTENT
+    ).friction_coefficient
+    assert mu == pytest.approx(Lambda, rel=1e-12)
