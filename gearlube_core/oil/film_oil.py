@@ -18,6 +18,7 @@ from gearlube_core.oil.film_laws import (
     viscosity_decline,
     viscosity_in_units,
 )
+from gearlube_core.oil.oil_heat import HEAT_RISES, HeatRise
 
 # eta/eta0 = e^200 lies far above glass; beyond, the law goes on along its tangent in ln eta
 _LARGEST_EXPONENT = 200.0
@@ -51,6 +52,7 @@ class FilmOil(NamedTuple):
     conductivity: float  # [W/(m K)]
     heat_capacity: float  # [J/(kg K)]
     eyring_slope: float = 0.0  # Lambda of the local Eyring stress [-]; 0: tau0 everywhere
+    heat_rise: HeatRise = HEAT_RISES["none"]
 
     def newtonian(self) -> FilmOil:
         """Return the oil without shear thinning."""
@@ -94,13 +96,6 @@ def viscosity(oil: FilmOil, p: float) -> float:
 
 
 @kernel
-def viscosity_slope(oil: FilmOil, p: float) -> float:
-    """Return d eta/dp [s], the exact derivative of `viscosity`."""
-    y, slope = log_viscosity(oil.viscosity, p, 1.0)
-    return oil.eta0 * bounded_exponential(y)[1] * slope
-
-
-@kernel
 def thermal_viscosity(oil: FilmOil, p: float, temperature: float) -> float:
     """Return the viscosity [Pa s] at a pressure [Pa] and a temperature [K]."""
     cooling = cooling_factor(oil.viscosity, temperature, oil.temperature)
@@ -123,12 +118,6 @@ def pressure_viscosity(oil: FilmOil) -> float:
 def density(oil: FilmOil, p: float) -> float:
     """Return the density [kg/m3] at a gauge pressure [Pa] and the oil's temperature."""
     return oil.rho0 * density_ratio(oil.density, p)[0]
-
-
-@kernel
-def density_slope(oil: FilmOil, p: float) -> float:
-    """Return d rho/dp [s2/m2], the exact derivative of `density`."""
-    return oil.rho0 * density_ratio(oil.density, p)[1]
 
 
 @kernel
@@ -189,6 +178,21 @@ def fill_stress_ratios(
     for i in range(p.size):
         ratio.flat[i], by_p = stress_ratio(oil, p.flat[i] * unit, cooling.flat[i])
         slope.flat[i] = by_p * unit
+
+
+@kernel
+def heat_under(oil: FilmOil, p: float, rho: float) -> tuple[float, float]:
+    """Return conductivity [W/(m K)] and heat capacity by volume [J/(m3 K)] of oil of a density.
+
+    Notes
+    -----
+    With a rise, rho0 c [1 + a p/(1 + b p)] stands for rho c. Source: [larsson_andersson_2000].
+    """
+    rise, q = oil.heat_rise, max(p, 0.0)
+    conductivity = 1.0 + rise.conductivity * q / (1.0 + rise.conductivity_bend * q)
+    if rise.capacity > 0.0:
+        rho = oil.rho0 * (1.0 + rise.capacity * q / (1.0 + rise.capacity_bend * q))
+    return oil.conductivity * conductivity, rho * oil.heat_capacity
 
 
 @kernel

@@ -19,7 +19,7 @@ from gearlube_core.oil.film_laws import (
 from gearlube_core.oil.film_oil import LEAST_PRESSURE, FilmOil, viscosity_cooling
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.named_laws import DensityLaw, EyringShear, Newtonian, ShearLaw, ViscosityLaw
-from gearlube_core.oil.oil_heat import OilHeat
+from gearlube_core.oil.oil_heat import HEAT_RISES, OilHeat
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
 
 _MINERAL = OilHeat()
@@ -123,6 +123,7 @@ def film_oil(
         conductivity=float(heat.conductivity),
         heat_capacity=float(heat.heat_capacity),
         eyring_slope=Lambda,
+        heat_rise=HEAT_RISES[heat.under_pressure],
     )
 
 
@@ -293,6 +294,7 @@ def film_oil_of(
         heat=OilHeat(
             conductivity=lubricant.conductivity + lubricant.conductivity_slope * offset,
             heat_capacity=lubricant.heat_capacity,
+            under_pressure=lubricant.heat_under_pressure,
         ),
     )
 

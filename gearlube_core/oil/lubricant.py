@@ -27,6 +27,7 @@ from gearlube_core.oil.lubricant_state import (
     LubricantState,
     lubricant_state,
 )
+from gearlube_core.oil.oil_heat import HeatUnderPressure
 from gearlube_core.oil.pressure_coefficients import (
     MEAN_PRESSURE,
     AlphaIs,
@@ -84,8 +85,8 @@ class Lubricant:
         and gamma [-].
     conductivity, conductivity_temperature, conductivity_slope
         Thermal conductivity [W/(m K)] at a temperature [K], and its slope [W/(m K2)].
-    heat_capacity
-        Specific heat capacity [J/(kg K)].
+    heat_capacity, heat_under_pressure
+        Specific heat capacity [J/(kg K)]; how both rise with pressure in films, see `OilHeat`.
     temperature_low, temperature_high
         Range of oil temperatures for which the data are meant [K].
     alpha_factor, eyring_stress_factor
@@ -131,6 +132,7 @@ class Lubricant:
     shear_law: Part | None = None
     alpha_is: AlphaIs = "slope"
     alpha_pressure: Annotated[float, Number("Pa", 1e7, 1e9, "200 MPa is 2e8 Pa.")] = MEAN_PRESSURE
+    heat_under_pressure: HeatUnderPressure = "none"
     eyring_slope: Annotated[float, Number("1", 0.0, 0.5, "0.05 is usual.")] = 0.0
 
     def __post_init__(self) -> None:

@@ -20,12 +20,8 @@ from gearlube_core.input_file.input_file import InputFile, InputNote, Origin, Se
 from gearlube_core.oil.base_oils import BASE_OILS
 from gearlube_core.oil.library import read_library
 from gearlube_core.oil.lubricant import Lubricant, lubricant_names
-from gearlube_core.oil.named_laws import (
-    DensityLaw,
-    ShearLaw,
-    ViscosityLaw,
-    chosen_laws,
-)
+from gearlube_core.oil.named_laws import DensityLaw, ShearLaw, ViscosityLaw, chosen_laws
+from gearlube_core.oil.oil_heat import HeatUnderPressure
 from gearlube_core.oil.pressure_coefficients import AlphaIs
 from gearlube_core.oil.sheet_values import SheetValues, sheet_values
 from gearlube_core.oil.viscometer import measured_law
@@ -262,6 +258,10 @@ class OilFile(InputFile):
     )
     conductivity_w_m_k: OilConductivity = None
     heat_capacity_j_kg_k: OilHeatCapacity = None
+    heat_under_pressure: HeatUnderPressure = Field(
+        default="none",
+        description="Base oil after which films conduct and hold more heat under pressure",
+    )
     temperature_low_degc: LowestTemperature = None
     temperature_high_degc: HighestTemperature = None
 

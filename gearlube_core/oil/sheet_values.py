@@ -283,6 +283,9 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
     capacity = notes.value(
         "heat_capacity_j_kg_k", base.heat_capacity.value, "assumed", base.heat_capacity.why
     )
+    rise = given.get("heat_under_pressure", "none")
+    own_rise: tuple[Origin, str] = ("assumed", "constant") if rise == "none" else ("given", "")
+    notes.note("heat_under_pressure", rise, *own_rise)
     low = notes.value("temperature_low_degc", 0.0, "assumed", "as of the library's oils")
     high = notes.value("temperature_high_degc", 150.0, "assumed", "as of the library's oils")
     data: dict[str, Any] = {
@@ -303,6 +306,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "conductivity_temperature": alpha_kelvin,
         "conductivity_slope": 0.0,
         "heat_capacity": capacity,
+        "heat_under_pressure": rise,
         "temperature_low": celsius_to_kelvin(low),
         "temperature_high": celsius_to_kelvin(high),
     }

@@ -41,13 +41,6 @@ def walther_viscosity(A: float, B: float, temperature: float) -> tuple[float, fl
     return nu_mm2_s * MM2_S, beta
 
 
-@kernel
-def walther_temperature(A: float, B: float, kinematic_viscosity: float) -> float:
-    """Return the temperature [K] at which the line has a kinematic viscosity [m2/s]."""
-    log10_shifted = math.log(kinematic_viscosity / MM2_S + WALTHER_SHIFT) / _LN10
-    return math.exp((_LN10 * A - math.log(log10_shifted)) / B)
-
-
 def walther_double_log(kinematic_viscosity: float) -> float:
     """Return log10 log10 (nu + 0.7) with nu in mm2/s, for nu [m2/s] given in SI."""
     return math.log10(math.log10(kinematic_viscosity / MM2_S + WALTHER_SHIFT))

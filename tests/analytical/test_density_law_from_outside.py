@@ -14,10 +14,11 @@ import pytest
 from gearlube_core.errors import ParameterError
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_laws import density_in_units, density_ratio
-from gearlube_core.oil.film_oil import density, density_slope
+from gearlube_core.oil.film_oil import density
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.ehl_point_cases import flow_out
 from tests.helpers.foreign_laws import FOREIGN_OIL, TAIT
+from tests.helpers.oil_slopes import density_slope
 from tests.helpers.small_films import line_film, oil_balance, point_film
 
 

@@ -24,7 +24,8 @@ from gearlube_core.ehl.line.thermal import ThermalSettings, solve_thermal_line
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.film_oil import thermal_viscosity
-from gearlube_core.oil.film_oil_data import film_oil, jamali_2015_oil
+from gearlube_core.oil.film_oil_data import film_oil, film_oil_of, jamali_2015_oil
+from gearlube_core.oil.oil_file import OilFile
 from gearlube_core.oil.oil_heat import OilHeat
 from tests.helpers.each import each
 from tests.helpers.ehl_line_cases import thesis_line
@@ -85,6 +86,27 @@ def test_developed_film_between_cold_walls_has_the_parabola_of_conduction():
     # half of the heat leaves through each wall
     assert flux[-1] == pytest.approx(0.5 * stress * us, rel=1e-6)
     assert heating[-1] == pytest.approx(stress * us, rel=1e-12)
+
+
+def test_oil_under_pressure_conducts_and_holds_more_heat():
+    p, us = 0.8e9, 2.0
+    heat = OilHeat(0.0, 0.137, 2000.0, "mineral")
+    oil = film_oil(eta0=0.5, alpha=0.0, law="barus", temperature=T0, heat=heat)
+    walls = SurfaceHeating(2.0, 4.0, 0.0, 0.0, T0)
+    thin, thick = 0.2e-6, 50e-6
+    T, flux, _, _ = marched(uniform_film(400, p, thin, 0.0, 3.0), 1e-5, walls, oil, 17)
+    conductivity = 0.137 * (1.0 + 1.72 * 0.8 / (1.0 + 0.54 * 0.8))
+    assert T[-1, 8] - T0 == pytest.approx(0.5 * us * us / (8.0 * conductivity), rel=1e-6)
+    assert flux[-1] == pytest.approx(0.25 * us * us / thin, rel=1e-6)
+    # over the first step of a thick film hardly any heat is conducted: 2e-4 of it
+    T = marched(uniform_film(2, p, thick, 0.0, 3.0), 1e-6, walls, oil, 17)[0]
+    capacity = oil.rho0 * 2000.0 * (1.0 + 0.47 * 0.8 / (1.0 + 0.81 * 0.8))
+    warming = 0.5 * (us / thick) ** 2 * 1e-6 / (capacity * 3.0)
+    assert T[1, 8] - T0 == pytest.approx(warming, rel=1e-3)
+    sheet = {"name": "a", "base_oil": "pao", "density_kg_m3": 850.0, "viscosity_index": 150.0}
+    sheet |= {"viscosity_40_degc_mm2_s": 100.0, "heat_under_pressure": "mineral"}
+    lubricant = OilFile.from_data(sheet, "the test").described().lubricant
+    assert film_oil_of(lubricant, T0).heat_rise == oil.heat_rise
 
 
 def test_surfaces_warm_with_the_root_of_the_distance():

@@ -13,17 +13,16 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.oil.eyring_1936 import eyring_flow_factor, eyring_mean_stress
 from gearlube_core.oil.film_oil import (
     density,
-    density_slope,
     film_properties,
     limiting_stress,
     pressure_viscosity,
     thermal_viscosity,
     viscosity,
-    viscosity_slope,
 )
 from gearlube_core.oil.film_oil_data import film_oil, film_oil_of, jamali_2015_oil
 from gearlube_core.oil.lubricant import Lubricant
 from tests.helpers.each import each
+from tests.helpers.oil_slopes import density_slope, viscosity_slope
 
 PRESSURES = (0.0, 1e6, 2e8, 1e9, 3e9)
 

@@ -29,10 +29,10 @@ from gearlube_core.oil.film_oil import (
     thermal_viscosity,
     viscosity,
     viscosity_cooling,
-    viscosity_slope,
 )
 from gearlube_core.oil.film_oil_data import film_oil
 from tests.helpers.foreign_laws import FOREIGN_OIL, T0
+from tests.helpers.oil_slopes import viscosity_slope
 from tests.helpers.small_films import (
     SPEED,
     line_contact,

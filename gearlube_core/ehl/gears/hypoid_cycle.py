@@ -30,7 +30,7 @@ from gearlube_core.ehl.transient.solution import FilmSolution
 from gearlube_core.ehl.transient.steady import solve_steady_film
 from gearlube_core.friction.johnson_greenwood_1980 import thermal_eyring_film
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.film_oil import FilmOil, stress_ratio
+from gearlube_core.oil.film_oil import FilmOil, heat_under, stress_ratio
 from gearlube_core.oil.roelands_1966 import ROELANDS_LOG_VISCOSITY
 
 THERMAL_COLUMNS = (
@@ -108,7 +108,8 @@ def heated_stress(
             tau0 = oil.shear.tau0 * stress_ratio(oil, p[i], 1.0)[0]
             log_eta = math.log(eta[i])
             beta_p = beta * (log_eta + ROELANDS_LOG_VISCOSITY) / reduced
-            film = thermal_eyring_film(log_eta, beta_p, oil.conductivity, tau0, h[i], slip)
+            k = heat_under(oil, p[i], oil.rho0)[0]
+            film = thermal_eyring_film(log_eta, beta_p, k, tau0, h[i], slip)
             tau[i] = film.stress_ratio * tau0
     return tau
 

@@ -13,7 +13,13 @@ import numpy as np
 
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_laws import cooling_at, cooling_factor
-from gearlube_core.oil.film_oil import FilmOil, limiting_stress, stress_ratio, thermal_viscosity
+from gearlube_core.oil.film_oil import (
+    FilmOil,
+    heat_under,
+    limiting_stress,
+    stress_ratio,
+    thermal_viscosity,
+)
 from gearlube_core.oil.sheared_film import layered_stress, shear_rate
 
 
@@ -177,10 +183,10 @@ def march_energy(
     n, m = T.shape
     heat = np.empty(m)
     lower, diagonal, upper, right = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
-    k_oil = oil.conductivity
     for i in range(n):
         tau[i], eta[i] = fill_shear(old, i, f, s.speed_2 - s.speed_1, oil, heat)
         dz = f.h[i] / (m - 1)
+        k_oil, capacity = heat_under(oil, f.p[i], f.rho[i])
         total = 0.0
         for k in range(m):
             total += heat[k] * (dz if 0 < k < m - 1 else 0.5 * dz)
@@ -195,7 +201,7 @@ def march_energy(
             u = s.speed_1 + (s.speed_2 - s.speed_1) * zeta
             u += (f.mean_speed[i] - couette) * 6.0 * zeta * (1.0 - zeta)
             thickness = dz if 0 < k < m - 1 else 0.5 * dz
-            carried = f.rho[i] * oil.heat_capacity * max(u, 0.0) * thickness / step
+            carried = capacity * max(u, 0.0) * thickness / step
             source = heat[k] * thickness
             source += oil.expansion * old[i, k] * u * f.p_slope[i] * f.wet[i] * thickness
             if i == 1:

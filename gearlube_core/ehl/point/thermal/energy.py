@@ -16,6 +16,7 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.film_laws import cooling_factor
 from gearlube_core.oil.film_oil import (
     FilmOil,
+    heat_under,
     limiting_stress,
     stress_ratio,
     thermal_viscosity,
@@ -138,7 +139,7 @@ def _carried(
     j, i = node // nx, node % nx
     ny = n // nx
     dz = f.h[node] / (m - 1)
-    capacity = f.rho[node] * oil.heat_capacity
+    capacity = heat_under(oil, f.p[node], f.rho[node])[1]
     for k in range(m):
         zeta = k / (m - 1.0)
         bulge = 6.0 * zeta * (1.0 - zeta)
@@ -203,7 +204,7 @@ def heat_balance(
     for node in range(n):
         _carried(film, motion, oil, T, nx, node, diagonal, right)
         dz = film.along.h[node] / (m - 1)
-        across = oil.conductivity / dz
+        across = heat_under(oil, film.along.p[node], 0.0)[0] / dz
         for k in range(m):
             shear = heat.source[node, k] * (dz if 0 < k < m - 1 else 0.5 * dz)
             made += shear
@@ -270,7 +271,7 @@ def sweep_film(
             node = j * nx + i
             _carried(film, motion, oil, T, nx, node, diagonal, right)
             dz = film.along.h[node] / (m - 1)
-            across = oil.conductivity / dz
+            across = heat_under(oil, film.along.p[node], 0.0)[0] / dz
             for k in range(m):
                 shear = heat.source[node, k] * (dz if 0 < k < m - 1 else 0.5 * dz)
                 falls = heat.decline[node] * shear
