@@ -18,7 +18,12 @@ from gearlube_core.number import Number
 from gearlube_core.oil.film_laws import log_viscosity
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.named_laws import ViscosityLaw
-from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
+from gearlube_core.oil.pressure_factor import (
+    PressureFactor,
+    film_coefficient,
+    modulus_at,
+    slope_turn,
+)
 from gearlube_core.oil.walther_1931 import walther_viscosity
 
 _HALVINGS = 60  # of a range of temperatures
@@ -76,7 +81,7 @@ class Modulus(NamedTuple):
             return 0.0
         f, x = self.factor, max(p * self.unit, 0.0)
         A, B = modulus_at(f, temperature)
-        turn = f.a2 + (f.b2 if f.b1 + f.b2 * temperature >= B else 0.0) * x
+        turn = f.a2 + slope_turn(f, temperature, B) * x
         beta = walther_viscosity(self.walther_a, self.walther_b, temperature)[1]
         return beta + x * turn / (A + B * x) ** 2
 
