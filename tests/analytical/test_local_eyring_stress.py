@@ -14,6 +14,7 @@ from gearlube_core.contact.hertz import hertz_ellipse
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain_of
+from gearlube_core.ehl.gears.hypoid_cycle import heated_stress
 from gearlube_core.ehl.line.energy import FilmFields, fill_shear
 from gearlube_core.ehl.line.problem import LineSettings
 from gearlube_core.ehl.line.rows import RowCoefficients, fill_rows, local_rows
@@ -219,6 +220,18 @@ def test_error_bars_of_a_local_stress_are_those_of_lambda():
     assert ratio == pytest.approx(one.factor, rel=1e-12)  # two standard deviations
     own = replace(axle, oil=sheet_oil(limiting_coefficient=0.04))
     assert {one.name: one.factor for one in uncertain_of(own)}["eyring_stress"] == 1.2
+
+
+def test_a_heated_film_of_a_flank_has_the_stress_of_each_place():
+    p, one = np.array([3e8, 9e8]), np.ones(2)
+    place = 2e-7 * one, thermal_viscosity(ROELANDS, 5e8, WARM) * one
+    found = heated_stress(p, *place, 1.5, ROELANDS, 0.04)
+    for i in range(2):
+        local = Eyring(local_stress(ROELANDS, p[i]))
+        constant = ROELANDS._replace(shear=local, eyring_slope=0.0)
+        expected = heated_stress(p, *place, 1.5, constant, 0.04)[i]
+        assert found[i] == pytest.approx(expected, rel=1e-12)
+    assert local_stress(ROELANDS, p[1]) > 1.1 * local_stress(ROELANDS, p[0])
 
 
 @each(
