@@ -37,7 +37,9 @@ from gearlube_core.oil.base_oils import (
     BOUNDARY_STRESS,
     EYRING_FACTOR,
     GIVEN_LIMIT_FACTOR,
+    HIGH_PRESSURE_FACTOR,
     MEASURED_ALPHA_FACTOR,
+    VISCOMETER_FACTOR,
 )
 from gearlube_core.oil.lubricant import lubricant_names
 from gearlube_core.oil.lubricant_state import lubricant_state
@@ -69,6 +71,8 @@ _OIL_DEFAULTS = {
     "alpha_pressure_gpa": "0.2",
     "alpha_temperature_degc": "40",
     "alpha_factor": f"{MEASURED_ALPHA_FACTOR:g}, of an estimate by class",
+    "high_pressure_factor": f"{HIGH_PRESSURE_FACTOR:g}; {VISCOMETER_FACTOR:g} with viscometer, "
+    "more without alpha",
     "eyring_stress_mpa": "inferred",
     "eyring_stress_factor": f"{EYRING_FACTOR:g}, of an estimate that of Lambda",
     "limiting_coefficient": _CLASS,

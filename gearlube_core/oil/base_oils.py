@@ -32,6 +32,11 @@ class BaseOil(NamedTuple):
 
 
 EYRING_FACTOR = 2.0  # of one number: 2 to 5 MPa are in use for mineral gear oils
+# of the viscosity at 1 GPa with the same alpha of films: its logarithm is known to 0.4, or to 0.15
+# with viscosities under pressure; four laws fitted to one PAO below 0.4 GPa differ by 2 to 6 times
+HIGH_PRESSURE_FACTOR, VISCOMETER_FACTOR = 2.2, 1.35
+# the same without an alpha, with what alpha itself adds by ln(eta/eta0) of about 9 at 1 GPa
+UNKNOWN_ALPHA_SPREAD, GROWTH = 1.0, 9.0
 MEASURED_ALPHA_FACTOR = 1.15  # of a given alpha: between methods of measurement, assumed
 GIVEN_LIMIT_FACTOR = 1.2  # of a given limiting coefficient: assumed
 BOUNDARY_STRESS, BOUNDARY_FRICTION = 2.0e6, 0.17  # Pa and [-], of the library's hypoid oils

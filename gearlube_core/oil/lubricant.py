@@ -89,9 +89,9 @@ class Lubricant:
         Specific heat capacity [J/(kg K)]; how both rise with pressure in films, see `OilHeat`.
     temperature_low, temperature_high
         Range of oil temperatures for which the data are meant [K].
-    alpha_factor, eyring_stress_factor
+    alpha_factor, eyring_stress_factor, high_pressure_factor
         The true value lies between value/factor and value * factor with 95 % (k = 2) [-]; None:
-        not known.
+        not known. The last is that of the viscosity at 1 GPa with the same alpha of films.
     viscosity_law, density_law, shear_law
         Laws of solved films, see `film_laws`; None: those of `film_oil_of`. Formulas of films and
         friction take laws of viscosity and shear from outside the package, see `own_laws`.
@@ -134,6 +134,7 @@ class Lubricant:
     alpha_pressure: Annotated[float, Number("Pa", 1e7, 1e9, "200 MPa is 2e8 Pa.")] = MEAN_PRESSURE
     heat_under_pressure: HeatUnderPressure = "none"
     eyring_slope: Annotated[float, Number("1", 0.0, 0.5, "0.05 is usual.")] = 0.0
+    high_pressure_factor: float | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -143,7 +144,7 @@ class Lubricant:
         check_within("eyring_stress", self.eyring_stress, 1e4, 1e9, "Pa", stress_cure)
         check_within("limiting_shear_stress", self.limiting_shear_stress, 0, 1e9, "Pa", stress_cure)
         check_within("temperature_high", self.temperature_high, self.temperature_low, 1000.0, "K")
-        for name in ("alpha_factor", "eyring_stress_factor"):
+        for name in ("alpha_factor", "eyring_stress_factor", "high_pressure_factor"):
             factor = getattr(self, name)
             if factor is not None:
                 check_within(name, factor, 1.0, 10.0, "", "1.1 is 10 % either way.")
@@ -252,6 +253,25 @@ class Lubricant:
         """Return the properties at a temperature [K], with the laws of its own."""
         made: LubricantState = lubricant_state(self.parameters(), temperature, *self.own_laws())
         return made
+
+    def with_high_pressure(self, by: float) -> Lubricant:
+        """Return a copy whose viscosity at 1 GPa is `by` times as large, alpha of films kept.
+
+        Both at 80 degC. An oil without a pressure factor stays as it is.
+
+        Examples
+        --------
+        >>> from gearlube_core.oil.film_laws import log_viscosity
+        >>> oil = Lubricant.named("arana_2019_m100")
+        >>> laws = [one._law_for(353.15) for one in (oil, oil.with_high_pressure(2.0))]
+        >>> grown = [log_viscosity(law, 1e9, 1.0)[0] for law in laws]
+        >>> round(grown[1] - grown[0], 4)  # ln 2
+        0.6931
+        """
+        law: Any = self.viscosity_law
+        if self.pressure_factor() is None:
+            return self
+        return replace(self, viscosity_law=replace(law, growth=law.growth * by))
 
     @property
     def laws(self) -> tuple[Part, ...]:

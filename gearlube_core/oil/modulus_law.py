@@ -25,6 +25,8 @@ _HALVINGS = 60  # of a range of temperatures
 _RANGE = (0.4, 2.5)  # of T over that of the oil, where a temperature is looked for
 _MANN = "falling-body viscosities by Mann to 0.5 GPa [arana_2019 Table 3]"
 
+_GPA, _HOT = 1e9, 353.15  # Pa, K
+_LARGEST_B, _LEAST_GROWTH = 0.15, 1.0  # of B; of ln(eta/eta0) at 1 GPa
 _FVA = "the formula that [wingertszahn_2023] quotes"
 
 
@@ -99,6 +101,7 @@ class ModulusLaw(ViscosityLaw, name="modulus"):
     b2: Annotated[float, Number("1/K", -1e-3, 2e-3, source=_MANN)] = 27.68e-5
     factor_temperature: float = 353.15  # [K], where there is no oil
     oil: Lubricant | None = None
+    growth: float = 1.0  # viscosity at 1 GPa over that of these numbers, alpha of films kept [-]
 
     def at(self, oil: Lubricant, temperature: float) -> tuple[ViscosityLaw, float]:
         """Return the law of an oil at a temperature [K], and eta0 there [Pa s]."""
@@ -126,7 +129,7 @@ class ModulusLaw(ViscosityLaw, name="modulus"):
                 f"{1e9 / (B * to):.3g} 1/GPa with the viscosity law {self.name}, got "
                 f"{1e9 * alpha:.4g} 1/GPa. Check alpha and its pressure, or take another law."
             )
-        return self._own.scaled(A / wanted)
+        return _grown(self._own.scaled(A / wanted), self.growth)
 
     @property
     def _own(self) -> PressureFactor:
@@ -140,6 +143,33 @@ class ModulusLaw(ViscosityLaw, name="modulus"):
             return Modulus(self.factor_of(oil), *line, T, 1.0)
         scale = alpha / film_coefficient(*modulus_at(self._own, T))
         return Modulus(self._own.scaled(scale), 0.0, 0.0, T, 1.0)
+
+
+def _grown(factor: PressureFactor, growth: float) -> PressureFactor:
+    """Return the factor with a viscosity at 1 GPa times `growth` and the same alpha of films.
+
+    Both hold at 80 degC, as far as a B from 0, or its own below 0, to 0.15 can: without B the
+    viscosity is exponential in pressure, and with the same alpha it cannot grow more. In cold oil
+    `growth` has more effect, as laws fitted to one oil differ more there.
+    """
+    if growth == 1.0:
+        return factor
+    from scipy.optimize import brentq  # takes a third of a second
+
+    A, B = modulus_at(factor, _HOT)
+    film = film_coefficient(A, B)
+    wanted = max(_GPA / (A + B * _GPA) + math.log(growth), _LEAST_GROWTH)
+
+    def slope_at(b: float) -> float:
+        return float(film_coefficient(1.0, b)) / film  # A that has this alpha
+
+    def excess(b: float) -> float:
+        return slope_at(b) + b * _GPA - _GPA / wanted
+
+    low, high = min(B, 0.0), max(B, _LARGEST_B)
+    b = low if excess(low) > 0.0 else high if excess(high) < 0.0 else brentq(excess, low, high)
+    by = slope_at(b) / A
+    return PressureFactor(factor.a1 * by, factor.a2 * by, factor.b1 + b - B, factor.b2)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -97,13 +97,11 @@ _ORIGINS: dict[str, Origin] = {
     "assumed": "assumed",
 }
 _LIBRARY_UNITS = {
-    "dynamic_1": "Pa.s",
-    "dynamic_2": "Pa.s",
+    **dict.fromkeys(("dynamic_1", "dynamic_2"), "Pa.s"),
     "density": "kg/m3",
     "alpha": "1/Pa",
     "alpha_is": "",
-    "eyring_stress": "Pa",
-    "limiting_shear_stress": "Pa",
+    **dict.fromkeys(("eyring_stress", "limiting_shear_stress"), "Pa"),
     "conductivity": "W/(m.K)",
     "conductivity_slope": "W/(m.K2)",
     "heat_capacity": "J/(kg.K)",
@@ -170,13 +168,8 @@ class Viscometer(Section):
 
     def points(self) -> Array:
         """Return pressure [Pa], temperature [K] and viscosity [Pa s] of each point."""
-        return np.column_stack(
-            [
-                1e9 * np.array(self.pressure_gpa),
-                [celsius_to_kelvin(one) for one in self.temperature_degc],
-                self.viscosity_pa_s,
-            ]
-        )
+        kelvin = [celsius_to_kelvin(one) for one in self.temperature_degc]
+        return np.column_stack([1e9 * np.array(self.pressure_gpa), kelvin, self.viscosity_pa_s])
 
 
 class OilFile(InputFile):
@@ -226,6 +219,10 @@ class OilFile(InputFile):
         default=None,
         description="Uncertainty factor of alpha: it lies between alpha / factor and alpha * "
         "factor (k = 2)",
+    )
+    high_pressure_factor: Factor | None = Field(
+        default=None,
+        description="Uncertainty factor of the viscosity at 1 GPa with the same alpha of films",
     )
     eyring_stress_mpa: EyringStress = None
     eyring_stress_factor: Factor | None = Field(
@@ -310,8 +307,8 @@ class OilFile(InputFile):
             origin: Origin = "assumed"
             if self.viscometer is not None:
                 points = self.viscometer.points()
-                own, alpha, why = measured_law(points, sheet_values(given).data, own)
-                given |= {"alpha_per_gpa": 1e9 * alpha, "alpha_is": "film"}
+                own, found, why = measured_law(points, sheet_values(given).data, own)
+                given = found | given | {"alpha_is": "film"}
                 origin = "inferred"
             laws["viscosity_law"] = own
             notes.append(InputNote("viscosity_law", own.name, "", origin, why))

@@ -16,8 +16,11 @@ from gearlube_core.oil.base_oils import (
     BOUNDARY_STRESS,
     EYRING_FACTOR,
     GIVEN_LIMIT_FACTOR,
+    GROWTH,
+    HIGH_PRESSURE_FACTOR,
     MEASURED_ALPHA_FACTOR,
     REFERENCE_DENSITY_DEGC,
+    UNKNOWN_ALPHA_SPREAD,
 )
 from gearlube_core.oil.pressure_coefficients import MEAN_PRESSURE, AlphaIs
 from gearlube_core.oil.walther_1931 import (
@@ -246,6 +249,12 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "assumed",
         "between methods" if measured else base.alpha.why,
     )
+    high_pressure, known = HIGH_PRESSURE_FACTOR, "alpha of films known, viscosity there is not"
+    if not measured:
+        of_alpha = 0.5 * GROWTH * math.log(alpha_factor)
+        spread = math.sqrt(max(UNKNOWN_ALPHA_SPREAD**2 - of_alpha**2, 0.0))
+        high_pressure, known = max(high_pressure, math.exp(2.0 * spread)), "alpha not measured"
+    high_pressure = notes.value("high_pressure_factor", high_pressure, "assumed", known)
     limit = notes.value(
         "limiting_coefficient",
         base.limiting_coefficient.value,
@@ -297,6 +306,7 @@ def sheet_values(given: Mapping[str, Any]) -> SheetValues:
         "alpha_temperature": alpha_kelvin,
         "alpha_pressure": to,
         "alpha_factor": alpha_factor,
+        "high_pressure_factor": high_pressure,
         "eyring_stress": eyring,
         "eyring_slope": 0.0 if own_stress else limit,
         "eyring_stress_factor": eyring_factor,

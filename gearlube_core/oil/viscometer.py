@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
+from gearlube_core.oil.base_oils import VISCOMETER_FACTOR
 from gearlube_core.oil.named_laws import ViscosityLaw
 from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
 from gearlube_core.oil.walther_1931 import walther_kinematic_viscosity
@@ -104,8 +105,8 @@ def fit_pressure_factor(
 
 def measured_law(
     points: Array, data: Mapping[str, Any], like: ViscosityLaw
-) -> tuple[ViscosityLaw, float, str]:
-    """Return the law of an oil's measured points, its alpha [1/Pa], and how well it meets them.
+) -> tuple[ViscosityLaw, dict[str, Any], str]:
+    """Return the law of an oil's measured points, what they say of alpha, how well it meets them.
 
     Parameters
     ----------
@@ -124,7 +125,9 @@ def measured_law(
     )
     law = ViscosityLaw.kind.named("viscometer", "modulus", fitted.factor._asdict())
     alpha = film_coefficient(*modulus_at(fitted.factor, data["alpha_temperature"]))
-    return law, alpha, f"viscometer, {100.0 * fitted.rms:.2g} % rms"
+    found = {"alpha_per_gpa": 1e9 * alpha, "alpha_is": "film"}
+    found["high_pressure_factor"] = VISCOMETER_FACTOR
+    return law, found, f"viscometer, {100.0 * fitted.rms:.2g} % rms"
 
 
 def _growth(

@@ -110,6 +110,31 @@ def test_what_alpha_is_moves_the_viscosity_of_a_flank():
     assert 1.3 < math.exp(grown[1] - grown[0]) < 3.0
 
 
+@each("name", ("fva_3", "arana_2019_m100", "arana_2019_pao100"))
+def test_viscosity_at_1_gpa_moves_and_the_alpha_of_films_stays(name):
+    oil, T = Lubricant.named(name), 353.15
+    own = law_of(oil, T)
+    for by in (1.0 / 2.2, 1.35, 2.2):
+        made = law_of(oil.with_high_pressure(by), T)
+        grown = [log_viscosity(law, 1e9, 1.0)[0] for law in (own, made)]
+        assert grown[1] - grown[0] == pytest.approx(math.log(by), rel=1e-9)
+        # the integral over pressure against its expansion for small B
+        assert pressure_coefficient(made, "film") == pytest.approx(
+            pressure_coefficient(own, "film"), rel=3e-3
+        )
+
+
+def test_a_viscosity_that_grows_exponentially_cannot_grow_more_with_the_same_alpha():
+    oil, T = Lubricant.named("arana_2019_n100"), 353.15
+    up, own, down = (
+        log_viscosity(law_of(oil.with_high_pressure(by), T), 1e9, 1.0)[0] for by in (2.0, 1.0, 0.5)
+    )
+    assert up == pytest.approx(own, rel=1e-9)
+    assert own - down == pytest.approx(math.log(2.0), rel=1e-6)
+    papers = Lubricant.named("karagiannis_2012")  # Roelands: nothing to change
+    assert papers.with_high_pressure(2.0) is papers
+
+
 def test_derivatives_of_the_law_are_those_of_its_values():
     law = law_of(Lubricant.named("arana_2019_pao100"), 333.15)
     p, T, step = 8e8, 350.0, 1e-3

@@ -254,10 +254,16 @@ def test_the_loss_map_takes_the_scatter_of_the_oil(tmp_path):
         return {one.name: one.factor for one in gl.LossMapSettings(axle=axle).uncertain}
 
     usual = {one.name: one.factor for one in UNCERTAIN}
+    of_sheets = usual.pop("high_pressure")  # the paper's oil has no pressure factor
     assert factors("mohammadpour_2015") == usual
     path = axle_with(tmp_path, 'file = "my_oil.toml"')
     written(tmp_path, eyring_stress_mpa=5.0, eyring_stress_factor=1.25, alpha_factor=1.05)
-    assert factors(path) == usual | {"eyring_stress": 1.25, "alpha": 1.05}
+    own = {"eyring_stress": 1.25, "alpha": 1.05}
+    # without an alpha ln(eta at 1 GPa) is known to 1, of which 9 times ln(1.05)/2 is alpha's
+    unknown = math.exp(2.0 * math.sqrt(1.0 - (4.5 * math.log(1.05)) ** 2))
+    assert factors(path) == pytest.approx(usual | own | {"high_pressure": unknown})
+    written(tmp_path, alpha_per_gpa=20.0)
+    assert factors(path)["high_pressure"] == of_sheets == 2.2
 
 
 def test_the_command_shows_an_oil_and_draws_it(tmp_path):

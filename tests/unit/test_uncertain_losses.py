@@ -14,6 +14,7 @@ from gearlube.report.churning import churning_regime
 from gearlube.report.films import covered_alone, covered_share, points_beyond, solved_films
 from gearlube.report.parts import WARNING
 from gearlube.studies.drive_cycle import report as drive_cycle
+from gearlube.studies.drive_cycle import spread as cycle_spread
 from gearlube.studies.loss_map import findings as loss_map
 from gearlube.studies.loss_map import sampling
 from gearlube.studies.loss_map.run import run_loss_map
@@ -46,6 +47,19 @@ def test_preload_is_uncertain_and_ribs_are_where_their_law_counts_them():
         changed = changed_axle(ribbed[name], AXLE, 2.0, np.ones(len(LOSS_SOURCES)))
         for old, new in zip(AXLE.bearings, changed.bearings, strict=True):
             assert getattr(new, field) / getattr(old, field) == pytest.approx(ratio)
+
+
+def test_the_causes_of_a_cycle_s_spread_are_those_that_made_it():
+    rng = np.random.default_rng(3)
+    drawn = rng.standard_normal((60, 3))
+    inputs = tuple(SimpleNamespace(words=name) for name in ("seals", "drag", "oil"))
+    lost = 300.0 * np.exp(drawn @ np.array([0.1, -0.3, 0.0]))
+    (first, by), (second, less), (third, none) = cycle_spread._causes(inputs, drawn, lost)
+    assert (first, second, third) == ("drag", "seals", "oil")
+    # two standard deviations
+    assert (by, less) == pytest.approx((math.exp(0.6) - 1.0, math.exp(0.2) - 1.0), rel=1e-9)
+    assert none == pytest.approx(0.0, abs=1e-9)
+    assert cycle_spread._causes(inputs, drawn[:8], lost[:8]) == ()
 
 
 def test_both_ends_of_a_datum_are_by_one_film():

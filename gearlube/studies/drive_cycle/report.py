@@ -102,6 +102,8 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
 def _lost(dataset: xr.Dataset) -> Finding:
     low, high = (float(dataset[f"energy_lost_{end}"]) for end in ("low", "high"))
     detail = f"{_whose(dataset)} it is {number_text(low)} to {quantity_text(high, 'kJ')}."
+    if causes := dataset.attrs.get("causes"):
+        detail += f" Most of this bar, and of that of the efficiency, comes from: {causes}."
     return energy_lost(dataset, "The axle", source_words, detail)
 
 

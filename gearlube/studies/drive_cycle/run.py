@@ -38,6 +38,7 @@ from gearlube_core.storage.atomic_file import write_dataset, write_text
 from gearlube_core.units import ZERO_CELSIUS
 
 _NOT_HEATED = "heat from brakes, gearbox and exhaust"
+_NAMED_CAUSES = 3
 _OF_MAP, _OF_SPREAD = 0.3, 0.95  # shares of the work at which map and error bars are done
 
 
@@ -156,6 +157,9 @@ def cycle_dataset(
         ),
     }
     dataset = base.assign_coords(coordinates).assign(variables_of(variables))
+    if spread is not None:
+        named = [f"{name} {100.0 * share:.0f} %" for name, share in spread.causes[:_NAMED_CAUSES]]
+        dataset.attrs["causes"] = ", ".join(named)
     return dataset.assign_attrs(_attributes(settings, lost, outside))
 
 

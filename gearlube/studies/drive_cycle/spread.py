@@ -29,6 +29,7 @@ from gearlube_core.progress import Progress, no_progress
 
 _BOUNDS = 2.5, 97.5  # percent
 _KJ = 1e-3
+_LEAST_DRAWS = 3  # for each input, to tell causes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,11 +40,15 @@ class CycleSpread:
     ----------
     lost, efficiency, end_temperature : tuple of 2 floats
         Energy lost [kJ], efficiency [-], oil temperature at the end [K].
+    causes : tuple of (str, float)
+        What an input is, and by what share it alone moves the energy lost to its upper end, largest
+        first; empty with too few draws.
     """
 
     lost: tuple[float, float]
     efficiency: tuple[float, float]
     end_temperature: tuple[float, float]
+    causes: tuple[tuple[str, float], ...] = ()
 
 
 def uncertain_inputs(settings: DriveCycleSettings) -> tuple[Uncertain, ...]:
@@ -78,12 +83,13 @@ def cycle_spread(
     carried = replace(demand, torque=losses.torque.mean(axis=1), measured=True)
     slopes = _slopes(settings, carried, inputs, progress)
     rng = np.random.default_rng(settings.seed)
-    results = np.empty((settings.draws, 3))
+    results, drawn = np.empty((settings.draws, 3)), np.empty((settings.draws, len(inputs)))
     sources = losses.power @ np.ones(len(LOSS_SOURCES))
     driving = losses.torque > 0.0
     measured = 0.0 if demand.measured else 1.0
     for k in range(settings.draws):
         normals, heat = rng.standard_normal(len(inputs)), _drawn_heat(settings.heat, rng)
+        drawn[k] = normals
         exponent = sum(normal * slope for normal, slope in zip(normals, slopes, strict=True))
         total = np.asarray((losses.power * np.exp(exponent)).sum(axis=-1))
         warming = warm(
@@ -109,7 +115,25 @@ def cycle_spread(
         )
     low, high = np.percentile(results, _BOUNDS, axis=0)
     pairs = [(float(a), float(b)) for a, b in zip(low, high, strict=True)]
-    return CycleSpread(lost=pairs[0], efficiency=pairs[1], end_temperature=pairs[2])
+    return CycleSpread(
+        lost=pairs[0],
+        efficiency=pairs[1],
+        end_temperature=pairs[2],
+        causes=_causes(inputs, drawn, results[:, 0]),
+    )
+
+
+def _causes(
+    inputs: tuple[Uncertain, ...], drawn: Array, lost: Array
+) -> tuple[tuple[str, float], ...]:
+    """Return the causes of the spread, by the best straight line of ln(lost) in all inputs."""
+    if lost.size < _LEAST_DRAWS * len(inputs) or not (lost > 0.0).all():
+        return ()
+    rows = np.column_stack([drawn, np.ones(lost.size)])
+    slopes = np.abs(np.linalg.lstsq(rows, np.log(lost), rcond=None)[0][:-1])
+    return tuple(
+        (inputs[i].words, float(np.expm1(UPPER_END * slopes[i]))) for i in np.argsort(-slopes)
+    )
 
 
 def _slopes(

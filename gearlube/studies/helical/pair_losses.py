@@ -26,6 +26,7 @@ from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinem
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.number import numbers_of
+from gearlube_core.oil.base_oils import HIGH_PRESSURE_FACTOR
 from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
@@ -58,17 +59,23 @@ UNCERTAIN = (
     PairFactor("roughness", 1.4, "new against run in; assumed"),
     PairFactor("sliding", 1.2, "laws of traction among each other; assumed"),
     PairFactor("rolling", 2.0, "flooded or starved inlet"),
+    PairFactor("high_pressure", HIGH_PRESSURE_FACTOR, "viscosity at 1 GPa, alpha known"),
 )
 
 
 def uncertain_of(film: FilmFriction) -> tuple[PairFactor, ...]:
     """Return the uncertain data, with the factors that oil and law have of their own."""
     oil = film.oil
-    own = {"alpha": oil.alpha_factor, "eyring_stress": oil.eyring_stress_factor}
+    own = {
+        "alpha": oil.alpha_factor,
+        "eyring_stress": oil.eyring_stress_factor,
+        "high_pressure": oil.high_pressure_factor,
+    }
     law = numbers_of(AranaShare).items() if film.asperities else ()
     return tuple(
         one if (factor := own.get(one.name)) is None else PairFactor(one.name, factor, oil.name)
         for one in UNCERTAIN
+        if one.name != "high_pressure" or oil.pressure_factor() is not None
     ) + tuple(PairFactor(name, one.factor, one.source) for name, one in law)
 
 
@@ -288,7 +295,7 @@ def _drawn(
         eyring_stress=oil.eyring_stress * by["eyring_stress"],
         eyring_slope=oil.eyring_slope * by["eyring_stress"],
         alpha=oil.alpha * by["alpha"],
-    )
+    ).with_high_pressure(by.get("high_pressure", 1.0))
     law = film.asperities
     if law is not None:
         law = replace(law, **{name: value * by[name] for name, value in law.numbers.items()})

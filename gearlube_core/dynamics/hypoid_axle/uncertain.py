@@ -20,6 +20,7 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.number import numbers_of
+from gearlube_core.oil.base_oils import HIGH_PRESSURE_FACTOR
 from gearlube_core.units import celsius_to_kelvin
 
 MOST_DRAWS = 10_000
@@ -77,6 +78,10 @@ def _eyring(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
 
 def _alpha(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
     return replace(axle, oil=replace(axle.oil, alpha=axle.oil.alpha * by))
+
+
+def _high_pressure(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
+    return replace(axle, oil=axle.oil.with_high_pressure(by))
 
 
 def _roughness(axle: HypoidAxleParameters, by: float) -> HypoidAxleParameters:
@@ -171,6 +176,13 @@ UNCERTAIN = (
         None,
         ("friction_rolling",),
     ),
+    Uncertain(
+        "high_pressure",
+        "viscosity of the oil at 1 GPa",
+        HIGH_PRESSURE_FACTOR,
+        "alpha of films known, viscosity there is not",
+        _high_pressure,
+    ),
 )
 
 RIBS = (
@@ -225,7 +237,11 @@ def uncertain_of(
             "take palmgren."
         )
     of_oil = f"of {oil.name}".replace(";", ",")
-    own = {"alpha": (oil.alpha_factor, of_oil), "eyring_stress": (oil.eyring_stress_factor, of_oil)}
+    own = {
+        "alpha": (oil.alpha_factor, of_oil),
+        "eyring_stress": (oil.eyring_stress_factor, of_oil),
+        "high_pressure": (oil.high_pressure_factor, of_oil),
+    }
     if calibrated_bearings:
         own["bearing_drag"] = (CALIBRATED, _MEASURED)
     elif law in BEARING_LAWS:
@@ -239,6 +255,8 @@ def uncertain_of(
         factor, why = own.get(one.name, (None, ""))
         if one.name == "preload" and (calibrated_bearings or not hasattr(axle.bearing, "preload")):
             continue  # it is in the measured torque, or there is none
+        if one.name == "high_pressure" and oil.pressure_factor() is None:
+            continue  # formulas keep the law of their source
         found.append(one if factor is None else replace(one, factor=factor, why=why))
     return tuple(found)
 
