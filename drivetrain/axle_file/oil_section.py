@@ -264,6 +264,8 @@ class OilSection(ModelSection):
                 name=base.name,
             )
             changes |= {"walther_a": line.walther_a, "walther_b": line.walther_b}
+        if self.has("eyring_stress_mpa"):
+            changes["eyring_slope"] = 0.0  # the number holds at all pressures
         return replace(base, **changes)
 
     def rheology_notes(self, prefix: str, made: Lubricant) -> list[InputNote]:

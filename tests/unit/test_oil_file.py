@@ -10,11 +10,13 @@ import pytest
 from typer.testing import CliRunner
 
 import gearlube as gl
+from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
 from fmu_src.axle_arguments import CUSTOM_OIL
 from fmu_src.hypoid_axle import car_axle_in, definition_with_axle
 from fmu_src.identity import guid_of
 from gearlube.command import app
+from gearlube.studies.calibrate import results
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table, write_mesh_table
@@ -169,6 +171,22 @@ def test_the_oil_file_comes_alone(tmp_path):
         ParameterError, match="file must be the only field of this section, got also density_kg_m3"
     ):
         read_axle(axle_with(tmp_path, 'file = "my_oil.toml"\ndensity_kg_m3 = 900.0'))
+
+
+def test_an_eyring_stress_beside_a_measured_oil_holds_at_all_pressures(tmp_path):
+    named = read_axle(axle_with(tmp_path, 'name = "fva_3"')).axle.oil
+    assert named.eyring_slope > 0.0
+    own = read_axle(axle_with(tmp_path, 'name = "fva_3"\neyring_stress_mpa = 6.0')).axle.oil
+    assert (own.eyring_stress, own.eyring_slope) == (6e6, 0.0)
+
+
+@pytest.mark.parametrize("oil", ['file = "my_oil.toml"', 'name = "fva_3"', 'name = "jamali_2015"'])
+def test_a_calibrated_axle_file_takes_the_number_of_its_own_oil_alone(tmp_path, oil):
+    written(tmp_path)
+    path = axle_with(tmp_path, oil)
+    found = results._values(AxleFile.given(str(path)), read_axle(path))
+    assert bool(found.get("oil.alpha_per_gpa")) == ("name" in oil)
+    assert bool(found.get("oil.eyring_stress_mpa")) == ("jamali" in oil)
 
 
 def test_a_missing_oil_file_is_named(tmp_path):

@@ -309,13 +309,16 @@ def _field(file: AxleFile, field: str) -> Any:
 
 def _values(file: AxleFile, described: CarAxle) -> dict[str, Any]:
     """Return the fields with their values, given or not, that an input may change."""
-    values = {note.field: note.value for note in described.inputs}
-    if file.oil.file is None:
+    own = file.oil.file is None  # the fields of an oil file are none of the axle file
+    notes = [one for one in described.inputs if own or not one.field.startswith("oil.")]
+    values = {note.field: note.value for note in notes}
+    if own:
         oil = described.axle.oil
         for field, degc in zip(_VISCOSITIES, (40.0, 100.0), strict=True):
             values[field] = 1e6 * oil.dynamic_viscosity(celsius_to_kelvin(degc)) / oil.density
         values["oil.alpha_per_gpa"] = 1e9 * oil.alpha
-        values["oil.eyring_stress_mpa"] = 1e-6 * oil.eyring_stress
+        # a local one is no number
+        values["oil.eyring_stress_mpa"] = 0.0 if oil.eyring_slope else 1e-6 * oil.eyring_stress
     if not described.axle.bearing_torque_loss.startswith("palmgren"):
         values |= dict.fromkeys(_FIELDS["bearing_drag"])
     return values
