@@ -206,7 +206,7 @@ def test_defaults_are_those_of_the_paper(asked):
     assert len(settings.mu) == 31
     assert (settings.mu[0], settings.mu[-1]) == (0.0, 0.3)
     assert len(settings.swept_speeds(settings.parameters())) == 60
-    assert (settings.mesh, settings.friction, settings.parts) == ("contact", "film", "all")
+    assert (settings.mesh, settings.friction, settings.parts) == ("contact", "arana_2019", "all")
 
 
 def test_options_reach_the_settings_in_si_units(asked):

@@ -217,7 +217,7 @@ def test_a_bearing_model_is_refused_where_it_cannot_be(folder):
         LossModel(law="solved_films", film_model=LINES)
     with pytest.raises(ParameterError, match=r"none\.json was not found in .*it in film_model"):
         BearingFile.given(str(bearing_file(folder, "none.json")))
-    thin = replace(Lubricant.named("fva_3"), eyring_stress=60e6)
+    thin = replace(Lubricant.named("fva_3"), eyring_stress=60e6, eyring_slope=0.0)
     file = BearingFile.named("wingertszahn_2023")
     settings = replace(
         BearingSettings.of_file(file), models=(LossModel(law="solved_films", film_model=ROLLERS),)

@@ -59,11 +59,12 @@ def helical(
     friction: Annotated[
         str,
         typer.Option(
-            help="film: oil film beside the constant coefficients; constant: these alone; "
-            "arana_2019: as film, and asperities carry a share of any load by the film ratio.",
-            metavar="film|constant|arana_2019",
+            help="Friction beside the constant coefficients. arana_2019: oil film, and asperities "
+            "that carry a share of any load by the film ratio, as FZG gears were measured; film: "
+            "with asperities of Greenwood and Tripp; constant: constant coefficients alone.",
+            metavar="arana_2019|film|constant",
         ),
-    ] = "film",
+    ] = "arana_2019",
     boundary_friction: Annotated[
         float | None,
         typer.Option(help="Friction coefficient of asperities, of arana_2019. Default 0.07."),

@@ -76,9 +76,9 @@ class HelicalSettings:
         all lines.
     density : float, optional
         Stiffness density for mesh "density" [N/m2]; None: from ISO 6336-1.
-    friction : {"film", "constant", "arana_2019"}
+    friction : {"arana_2019", "film", "constant"}
         "constant": constant coefficients only; the others: friction of the oil film too, with
-        asperities by Greenwood and Tripp or by the share of Arana et al.
+        asperities by the share of Arana et al. or by Greenwood and Tripp.
     boundary_friction : float, optional
         Of the asperities with "arana_2019" [-]; default: that of the law.
     torques : tuple of float
@@ -123,7 +123,7 @@ class HelicalSettings:
     speed_count: Annotated[int, Number("1", 2, 2000)] = 60
     mesh: str = "contact"
     density: float | None = None
-    friction: str = "film"
+    friction: str = AranaShare.name
     boundary_friction: float | None = None
     torques: tuple[float, ...] = ()
     positions: int = 24
