@@ -91,6 +91,7 @@ _ARGUMENTS = {
     "oil": "oil",
     "pinion_seal_torque": "seals.pinion_torque_n_m",
     "wheel_seal_torque": "seals.wheel_torque_n_m",
+    "hub_torque": "seals.hub_torque_n_m",
     "rolling": "model.flank_rolling",
     "film": "film.model",
     "film_limiting_slope": "film.limiting_slope",

@@ -336,7 +336,7 @@ _LISTED: tuple[Variable, ...] = (
 )
 
 # parameters and outputs that the model's files declare: names of the released ones, in their order
-_RELEASED: tuple[str, ...] = ()
+_RELEASED = ("wheel.hub.torque",)
 HYPOID_AXLE = _LISTED + in_order(
     _RELEASED,
     *declared_in(HypoidAxleParameters, {one.argument for one in _LISTED}),

@@ -9,16 +9,23 @@ from __future__ import annotations
 import csv
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from docs.page import ROOT, Page
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.axle_file.read_axle import read_axle
+from gearlube.studies.loss_map.report import no_load_table
+from gearlube.studies.loss_map.run import run_loss_map
+from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.followed_shaft import TORQUE_LOSSES
+from gearlube_core.drag import seal_torque
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
-from gearlube_core.units import celsius_to_kelvin, kmh_to_ms
+from gearlube_core.friction.flank_laws import AranaShare
+from gearlube_core.units import celsius_to_kelvin, kmh_to_ms, rpm_to_rads
+from tests.helpers.fzg_gears import friction as fzg_friction
 
 CYCLES = ROOT / "docs" / "drive_cycle" / "numbers.csv"
 SHARE = "zhou_hoeprich_1991"  # of `friction`
@@ -219,6 +226,55 @@ def other_laws(cars: list[CarAxle]) -> list[list[str]]:
     return rows
 
 
+def fzg() -> list[list[str]]:
+    """Return rows for the mean friction coefficient of FZG gears by each law."""
+    laws = ({"mu_b": None}, {"mu_b": 0.065}, {"mu_b": None, "rough": 1e-8})
+    return [
+        [
+            " / ".join(
+                f"{fzg_friction(speed, film=film, **law).mean_coefficient:.3f}"  # type: ignore[arg-type]
+                for film in ("formula", "solved")
+            )
+            for speed in (0.5, 2.0, 8.3, 20.0)
+        ]
+        for law in laws
+    ]
+
+
+def slopes(cars: list[CarAxle]) -> list[list[str]]:
+    """Return rows for the slope of loss torque over torque by each law."""
+    rows = []
+    for law in ("consistent", AranaShare(), AranaShare(boundary_friction=0.1), SHARE):
+        cells = []
+        for car in cars:
+            made = replace(car, axle=replace(car.axle, friction=law))
+            speeds = np.array([10.0, 400.0])
+            lost = losses(made, np.array([100.0, 300.0]), speeds, 90.0)[0].sum(-1)
+            slope = (lost[:, 1] - lost[:, 0]) / speeds / 2.0
+            cells.append(f"{slope[0]:.2f}, {slope[1]:.2f}")
+        rows.append(cells)
+    return rows
+
+
+def idle(cars: list[CarAxle]) -> list[list[str]]:
+    """Return rows for the parts of the torque without load; the last axle has wheel ends."""
+    paper, van = (car.axle for car in cars)
+    seal = partial(seal_torque, material="any", temperature=343.15, nu_40=175e-6)
+    ends = {"pinion_seal_torque": seal(0.045), "wheel_seal_torque": 4.0 * seal(0.07)}
+    columns = []
+    for axle in (paper, van, replace(van, hub_torque=1.0, **ends)):
+        settings = LossMapSettings(
+            axle=axle,
+            torques=np.array([0.0, 50.0]),
+            speeds=rpm_to_rads(1.0) * np.array([500.0, 1500.0, 3000.0]),
+            temperatures=np.array([343.15]),
+            draws=0,
+        )
+        (table,) = no_load_table(run_loss_map(settings))
+        columns.append([f"{row[1]:.2f}, {row[3]:.2f}" for row in table.rows])
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
 def main() -> None:
     """Compute all statements; put them into the page."""
     cars = [read_axle("mohammadpour_2015"), read_axle(ROOT / "examples" / "my_axle.toml")]
@@ -226,6 +282,9 @@ def main() -> None:
     page.cells("what is said", statements(cars))
     page.cells("axle | at the pinion", mixed(cars), first=3)
     page.rows("bearing drag | `friction`", other_laws(cars))
+    page.cells("`friction` | 0.5 m/s", fzg(), first=1)
+    page.cells("`friction` | paper's axle [%]", slopes(cars), first=1)
+    page.cells("part | paper's axle", idle(cars), first=1)
     page.write()
 
 

@@ -278,7 +278,7 @@ class AxleFile(InputFile):
         given = self.gear_set.changes(base) | self.model.changes(base) | self.film.changes(base)
         given |= self.pinion.member_changes("pinion", density)
         given |= self.gear.member_changes("gear", density)
-        given |= self.housing.housing_changes(base) | self.seals.seal_changes()
+        given |= self.housing.housing_changes(base) | self.seals.seal_changes(oil)
         axle = replace(
             base,
             **given,

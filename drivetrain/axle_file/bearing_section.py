@@ -118,7 +118,8 @@ class BearingSection(ModelSection, BearingFields):
     )
     rib_boundary_friction: RibFriction | None = Field(
         default=None,
-        description="Friction coefficient of asperities between roller ends and rib",
+        description="Friction coefficient of asperities between roller ends and rib; 0.2 for new "
+        "ribs without finish",
     )
     rib_roughness_um: RibRoughness | None = Field(
         default=None, description="Composite RMS roughness of roller ends and rib"

@@ -49,7 +49,7 @@ Torque = Annotated[float, _axle("pinion_torque_n_m", "pinion_seal_torque"), Usua
 
 DEFAULT_CHURNING = "changenet_velex_2007"
 _NO_SOURCE = "size found in passenger cars; no source"
-_WHEEL_SEALS = 2
+_WHEEL_SEALS, _SEAL_DEGC = 2, 70.0
 WaltherA = Annotated[float, _oil("walther_a")]
 WaltherB = Annotated[float, _oil("walther_b")]
 Slope = Annotated[float, _oil("conductivity_slope_w_m_k2"), Usual(-0.001, 0.001)]
@@ -105,11 +105,12 @@ class Housing(ModelSection):
 
 
 class Seals(ModelSection):
-    """The radial seals of the shafts."""
+    """The radial seals of the shafts, and the bearings of the wheel hubs."""
 
     renamed: ClassVar[Mapping[str, str]] = {
         "pinion_torque_n_m": "pinion_seal_torque",
         "wheel_torque_n_m": "wheel_seal_torque",
+        "hub_torque_n_m": "hub_torque",
     }
 
     pinion_diameter_mm: ShaftSize | None = Field(
@@ -122,13 +123,26 @@ class Seals(ModelSection):
     )
     material: SealMaterial | None = Field(
         default=None,
-        description="Material of the lip: fluorocarbon (fkm) or nitrile rubber; left out: fkm",
+        description="Material of the lip: fluorocarbon (fkm) or nitrile rubber; any: torque by the "
+        "oil's viscosity and temperature, ISO/TR 14179-2; left out: fkm",
+    )
+    oil_temperature_degc: Temperature | None = Field(
+        default=None, description="Temperature of the oil, for material = any; left out: 70"
+    )
+    wheel_factor: Annotated[float, Field(ge=1.0, le=5.0)] | None = Field(
+        default=None,
+        description="Factor of the torque of wheel_diameter_mm; 1.5 to 3 with grease or dust lips",
     )
     pinion_torque_n_m: Torque | None = Field(
         default=None, description="Friction torque of the pinion seal"
     )
     wheel_torque_n_m: Torque | None = Field(
         default=None, description="Friction torque of the seals of both wheels together"
+    )
+    hub_torque_n_m: Torque | None = Field(
+        default=None,
+        description="Friction torque of the bearings of both wheel hubs together, for their own "
+        "load and grease",
     )
 
     @model_validator(mode="after")
@@ -139,25 +153,35 @@ class Seals(ModelSection):
                     f"{shaft}_diameter_mm and {shaft}_torque_n_m describe the same loss; give one "
                     "of them"
                 )
+        for given, asked, there in (
+            ("wheel_factor", "wheel_diameter_mm", self.has("wheel_diameter_mm")),
+            ("oil_temperature_degc", 'material = "any"', self.material == "any"),
+        ):
+            if self.has(given) and not there:
+                raise ValueError(f"{given} is only for {asked}, got it without; leave it out")
         return self
 
-    def seal_changes(self) -> dict[str, float]:
+    def seal_changes(self, oil: Lubricant) -> dict[str, float]:
         """Return the torques that the section gives [N.m]."""
         found = {}
-        for shaft, count in (("pinion", 1), ("wheel", _WHEEL_SEALS)):
+        if self.hub_torque_n_m is not None:
+            found["hub_torque"] = float(self.hub_torque_n_m)
+        nu_40 = oil.dynamic_viscosity(celsius_to_kelvin(40.0)) / oil.density
+        degc = _SEAL_DEGC if self.oil_temperature_degc is None else self.oil_temperature_degc
+        warm, of_wheels = (celsius_to_kelvin(degc), nu_40), _WHEEL_SEALS * (self.wheel_factor or 1)
+        for shaft, factor in (("pinion", 1.0), ("wheel", of_wheels)):
             if self.has(f"{shaft}_torque_n_m"):
                 found[f"{shaft}_seal_torque"] = float(self.si(f"{shaft}_torque_n_m"))
             elif self.has(f"{shaft}_diameter_mm"):
-                diameter = float(self.si(f"{shaft}_diameter_mm"))
-                found[f"{shaft}_seal_torque"] = count * seal_torque(
-                    diameter, self.material or "fkm"
-                )
+                torque = seal_torque(self.si(f"{shaft}_diameter_mm"), self.material or "fkm", *warm)
+                found[f"{shaft}_seal_torque"] = factor * torque
         return found
 
     def seal_notes(self, prefix: str, axle: HypoidAxleParameters) -> list[InputNote]:
         """Return a note on every field."""
+        part = 2 if self.material == "any" else 1
         inferred = {
-            f"{shaft}_torque_n_m": f"{shaft}_diameter_mm, ISO/TR 14179-1"
+            f"{shaft}_torque_n_m": f"{shaft}_diameter_mm, ISO/TR 14179-{part}"
             for shaft in ("pinion", "wheel")
             if self.has(f"{shaft}_diameter_mm")
         }

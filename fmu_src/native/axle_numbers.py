@@ -47,6 +47,11 @@ from gearlube_core.kernels.flat_tuples import count_floats, flatten, tuple_from_
 from gearlube_core.kernels.jit import kernel
 
 _SIZES_OF_MESH = 5
+_TORQUES = {
+    "pinion seal": "pinion_seal_torque",
+    "wheel seals": "wheel_seal_torque",
+    "wheel hubs": "hub_torque",
+}
 
 
 class NumberMap(NamedTuple):
@@ -246,8 +251,7 @@ def _number_map(
             )
         elif isinstance(one, Seal):
             dragging.append(int(own.torque))
-            of_wheels = place.wheel_seal_torque
-            found = own._replace(torque=place.pinion_seal_torque if of_pinion else of_wheels)
+            found = own._replace(torque=getattr(place, _TORQUES[one.name]))
         elif isinstance(one, Churning):
             dragging.append(int(own.gear.law))
             found = own._replace(gear=place.churning)

@@ -31,7 +31,10 @@ SOURCE_WORDS = {
     "friction_rolling": "rolling of the flanks",
 }
 SOURCE_COLOURS = dict(zip(SOURCE_WORDS, PARTS, strict=True))  # the same in every figure
-NEVER_MODELLED = ("bearings and grease of the wheel ends", "windage")
+NEVER_MODELLED = (
+    "bearings of the wheel ends unless seals.hub_torque_n_m is given",
+    "windage",
+)
 _SAID = (
     "bearing_torque",
     "churning",

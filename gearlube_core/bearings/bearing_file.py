@@ -142,7 +142,8 @@ class RibSection(Section):
     )
     share_c: ShareC = Field(default=RIB_SHARE_C, description="C in the same formula")
     boundary_friction: Friction = Field(
-        default=RIB_BOUNDARY_FRICTION, description="Friction coefficient of the asperities"
+        default=RIB_BOUNDARY_FRICTION,
+        description="Friction coefficient of the asperities; 0.2 for new ribs without finish",
     )
 
 

@@ -124,6 +124,7 @@ OPTIONS: dict[str, tuple[Any, dict[str, Any]]] = {
     "backlash": (1e-4, {}),
     "pinion_seal_torque": (0.1, {}),
     "wheel_seal_torque": (0.1, {}),
+    "hub_torque": (0.1, {}),
     "mesh": (replace(AXLE.mesh, torque=1.1 * AXLE.mesh.torque), {}),
     "bearing": (OTHER_BEARING, {}),
     "gear_bearing": (OTHER_BEARING, {}),

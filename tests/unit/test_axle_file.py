@@ -71,6 +71,7 @@ NUMBERS = {
     "seals.wheel_diameter_mm": (35.0, "axle.wheel_seal_torque", 2 * 3.737e-3 * 35.0),
     "seals.pinion_torque_n_m": (0.21, "axle.pinion_seal_torque", 0.21),
     "seals.wheel_torque_n_m": (0.37, "axle.wheel_seal_torque", 0.37),
+    "seals.hub_torque_n_m": (0.83, "axle.hub_torque", 0.83),
     "model.equations": ("as_printed", "axle.equations", "as_printed"),
     "model.friction": ("off", "axle.friction", "off"),
     "model.flank_rolling": ("biboulet_houpert_2010", "axle.rolling", "biboulet_houpert_2010"),
@@ -174,6 +175,7 @@ GROUPS |= {f"{role}.frusta_{one}_mm" for role in ("pinion", "gear")
 WORDS = {"name", "source", "gear_set.mesh_table", "gear_set.asperity_table", "oil.file"}
 WORDS |= {"film.flank_model", "film.roller_model", "model.friction_numbers"}
 WORDS |= {f"{role}.bearing.type" for role in ("pinion", "gear")}
+WORDS |= {"seals.oil_temperature_degc", "seals.wheel_factor"}
 WORDS |= {"seals.material", "tolerances", "gear_set.gear_file", "gear_set.contact_torques_n_m"}
 
 

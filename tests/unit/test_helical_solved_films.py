@@ -11,11 +11,12 @@ import pytest
 from gearlube.studies.helical import pair_losses
 from gearlube.studies.helical.film_friction import film_dataset
 from gearlube.studies.helical.findings import findings
-from gearlube.studies.helical.pair_losses import PairFactor, losses_csv, losses_dataset
+from gearlube.studies.helical.pair_losses import losses_csv, losses_dataset
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.summary import _film, _losses
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
+from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
 from gearlube_core.errors import ParameterError
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -123,7 +124,10 @@ def test_a_draw_that_leaves_the_film_model_does_not_mix_the_models(monkeypatch):
     """Alpha known to a factor of 20: most draws leave the domain, the bar stays continuous."""
     one = settings(film_model="solved", torques=(226.0,), speeds=(104.7,), draws=12)
     names = ("viscosity", "eyring_stress", "roughness", "sliding", "rolling")
-    wide = (*(PairFactor(name, 1.0, "test") for name in names), PairFactor("alpha", 20.0, "test"))
+    wide = (
+        *(Uncertain(name, name, 1.0, "test") for name in names),
+        Uncertain("alpha", "alpha", 20.0, "test"),
+    )
     monkeypatch.setattr(pair_losses, "UNCERTAIN", wide)
     found = losses_dataset(one, one.constant_mesh()).squeeze()
     plain = replace(one, film_model="formula")

@@ -55,6 +55,7 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
         share_outside=0.004 * one,
         drag_bound=0.3 * one,
         rollers_outside=0.003 * one,
+        pinion_drag=0.7 * one,
         bulk_temperature=380.0 + one,
         exceeded=np.where(one == 7.0, 16.0, 0.0),
         status=np.zeros((2, 2, 3), dtype=int),
@@ -91,6 +92,7 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
         "loss": ("W", warm[..., None] * SOURCES),
         "efficiency": ("1", efficiency),
         "wheel_torque": ("N.m", 3.0 * (torque - total / w)),
+        "pinion_bearing_loss": ("W", 0.7 * one),
         "carried_torque": ("N.m", 10.0 * one),
         "film_ratio": ("1", np.where(one == 5.0, np.nan, 0.1 * one)),
         "flank_temperature": ("degC", 400.0 + one - ZERO),
@@ -112,9 +114,10 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
     assert_variables(made, expected, zero=("status",))
     known = {
         "ratio": 3.0,
+        "pinion_seal_torque": 1.0,
         "oil_data_high_degc": 150.0,
-        "not_modelled": "wheel seals, rolling of the flanks, bearings and grease of the wheel "
-        "ends, windage",
+        "not_modelled": "wheel seals, rolling of the flanks, bearings of the wheel ends "
+        "unless seals.hub_torque_n_m is given, windage",
         "uncertain": "a: factor 1.5 (k = 2), old; b: factor 2 (k = 2), old",
         "air_temperature_degc": 20.0,
         "conductance_at_rest_w_k": 7.0,
@@ -125,7 +128,7 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
     plain = {"film": "formula", "bearing_torque_loss": "none", "churning": "none"}
     settings.axle = an_axle(flank_bulk_resistance=0.0, **plain)
     bare = datasets.loss_map_dataset(settings, losses, None)
-    assert set(bare.data_vars) == {*list(expected)[5:14]}
+    assert set(bare.data_vars) == {*list(expected)[5:15]}
 
 
 def test_every_variable_of_a_cycle_has_its_known_values_and_unit(monkeypatch):

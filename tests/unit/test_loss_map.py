@@ -20,11 +20,12 @@ from gearlube.command import COMMANDS, command_line
 from gearlube.report.parts import WARNING
 from gearlube.studies.loss_map.exports import lossy_gear_table
 from gearlube.studies.loss_map.findings import findings
+from gearlube.studies.loss_map.report import no_load_table
 from gearlube.studies.loss_map.sampling import moving_inputs
 from gearlube_core.bearings.followed_shaft import BEARING_LAWS, TORQUE_LOSSES
 from gearlube_core.bearings.losses.laws import LAWS
 from gearlube_core.bearings.losses.loss import CALIBRATED, UNCALIBRATED
-from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
+from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN
 from gearlube_core.errors import ParameterError
@@ -395,3 +396,36 @@ def test_inputs_without_effect_have_no_bar():
     moving, still = moving_inputs(xr.Dataset({"swing": swing, "loss_torque": ("torque", [2.0])}))
     assert moving == {"bearing_drag": pytest.approx(0.1)}
     assert still == ["churning"]
+
+
+def test_the_parts_without_load_add_up_to_the_loss_there(found):
+    (table,) = no_load_table(found)
+    parts = {row[0]: np.array(row[1:]) for row in table.rows}
+    whole = parts.pop("whole")
+    assert sum(parts.values()) == pytest.approx(whole, rel=1e-12)
+    idle = found["loss_torque"].sel(torque=0.0).isel(temperature=1)
+    assert whole == pytest.approx(idle.values, rel=1e-12)  # three speeds: all are shown
+    assert parts["seal of the pinion"] == pytest.approx([0.15] * 3)
+    ratio = AXLE.mesh.ratio
+    # the factor w/sqrt(w^2 + 1) through rest takes 0.3 % at 14 rad/s of the gear
+    assert parts["wheel ends: seals and hubs"] == pytest.approx([0.3 / ratio] * 3, rel=5e-3)
+    # like bearings with like preload: the slower shaft counts 1/ratio^(2/3) times 1/ratio by
+    # Palmgren's viscous part and 1/ratio by the part of the preload
+    share = (
+        parts["bearings of the gear's shaft (differential)"]
+        / parts["bearings of the pinion's shaft"]
+    )
+    assert np.all((share > ratio ** (-5.0 / 3.0)) & (share < 1.0 / ratio))
+
+
+def test_preload_drags_without_load(found):
+    loose = replace(AXLE, bearing=replace(AXLE.bearing, preload=0.5 * AXLE.bearing.preload))
+    lost = (
+        axle_losses(
+            loose, torques=np.zeros(1), speeds=SPEEDS, temperatures=np.array([363.15]), angles=8
+        )
+        .power[0, :, 0]
+        .sum(-1)
+    )
+    torque = lost / SPEEDS
+    assert np.all(torque < 0.98 * found["loss_torque"].sel(torque=0.0, temperature=90.0).values)

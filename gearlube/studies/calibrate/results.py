@@ -55,7 +55,7 @@ _FIELDS = {
     "rib_friction": tuple(f"{shaft}rib_boundary_friction" for shaft in _BEARING),
     "rib_roughness": tuple(f"{shaft}rib_roughness_um" for shaft in _BEARING),
     "bearing_drag": tuple(f"{shaft}{name}" for shaft in _BEARING for name in ("f0", "f1")),
-    "seals": _SEALS,
+    "seals": (*_SEALS, "seals.hub_torque_n_m"),
     "viscosity": _VISCOSITIES,
     "alpha": ("oil.alpha_per_gpa",),
     "eyring_stress": ("oil.eyring_stress_mpa",),

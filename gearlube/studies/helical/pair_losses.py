@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -15,6 +15,8 @@ from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
+from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN as OF_AXLE
+from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
@@ -26,7 +28,6 @@ from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinem
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.number import numbers_of
-from gearlube_core.oil.base_oils import HIGH_PRESSURE_FACTOR
 from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
@@ -39,31 +40,16 @@ _LARGEST_OVER_MEAN = 4.0 / math.pi  # pressure of a Hertz line
 _BOUNDS = (2.5, 97.5)  # percent
 
 
-@dataclass(frozen=True, slots=True)
-class PairFactor:
-    """A datum of the pair that is known to a factor (k = 2, log-normal)."""
-
-    name: str
-    factor: float
-    why: str
-
-    def multiplier(self, normal: float) -> float:
-        """Return the number to multiply with at a standard normal `normal`."""
-        return math.exp(0.5 * normal * math.log(self.factor))
-
-
+_OF_AXLE = {one.name: one for one in OF_AXLE}
 UNCERTAIN = (
-    PairFactor("viscosity", 1.08, "batches of one reference oil"),
-    PairFactor("eyring_stress", 2.0, "2 to 5 MPa in use"),
-    PairFactor("alpha", 1.15, "between methods; assumed"),
-    PairFactor("roughness", 1.4, "new against run in; assumed"),
-    PairFactor("sliding", 1.2, "laws of traction among each other; assumed"),
-    PairFactor("rolling", 2.0, "flooded or starved inlet"),
-    PairFactor("high_pressure", HIGH_PRESSURE_FACTOR, "viscosity at 1 GPa, alpha known"),
+    *(_OF_AXLE[name] for name in ("viscosity", "eyring_stress", "alpha", "roughness")),
+    Uncertain("sliding", "law of sliding", 1.2, "laws of traction among each other; assumed"),
+    Uncertain("rolling", "law of rolling", 2.0, "flooded or starved inlet"),
+    _OF_AXLE["high_pressure"],
 )
 
 
-def uncertain_of(film: FilmFriction) -> tuple[PairFactor, ...]:
+def uncertain_of(film: FilmFriction) -> tuple[Uncertain, ...]:
     """Return the uncertain data, with the factors that oil and law have of their own."""
     oil = film.oil
     own = {
@@ -73,10 +59,10 @@ def uncertain_of(film: FilmFriction) -> tuple[PairFactor, ...]:
     }
     law = numbers_of(AranaShare).items() if film.asperities else ()
     return tuple(
-        one if (factor := own.get(one.name)) is None else PairFactor(one.name, factor, oil.name)
+        one if (factor := own.get(one.name)) is None else replace(one, factor=factor, why=oil.name)
         for one in UNCERTAIN
         if one.name != "high_pressure" or oil.pressure_factor() is not None
-    ) + tuple(PairFactor(name, one.factor, one.source) for name, one in law)
+    ) + tuple(Uncertain(name, one.text, one.factor, one.source) for name, one in law)
 
 
 @kernel
@@ -260,7 +246,7 @@ def _losses(
 
 def _spread(
     normals: Array,
-    uncertain: tuple[PairFactor, ...],
+    uncertain: tuple[Uncertain, ...],
     points: LinePoints,
     load: Array,
     point: tuple[float, float],
@@ -280,7 +266,7 @@ def _spread(
 
 
 def _drawn(
-    normals: Array, uncertain: tuple[PairFactor, ...], film: FilmFriction
+    normals: Array, uncertain: tuple[Uncertain, ...], film: FilmFriction
 ) -> tuple[FilmFriction, dict[str, float]]:
     """Return the film with the uncertain data at these standard normals, and all multipliers."""
     by = {

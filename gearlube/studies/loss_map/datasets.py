@@ -37,6 +37,7 @@ def loss_map_dataset(
         "loss": ((*GRID, "source"), losses.power, "W", "power lost"),
         "efficiency": (GRID, _efficiency(total, turning * torques), "1", "efficiency of the axle"),
         "wheel_torque": (GRID, wheel_torque, "N.m", "torque of both wheels together"),
+        "pinion_bearing_loss": (GRID, losses.pinion_drag, "W", "bearing drag of the pinion alone"),
         "carried_torque": (GRID, losses.carried, "N.m", "torque of the teeth at the pinion"),
         "film_ratio": (GRID, _finite(losses.film_ratio), "1", "least film ratio of a flank"),
         "flank_temperature": (
@@ -181,6 +182,7 @@ def _attributes(settings: LossMapSettings, losses: AxleLosses) -> dict[str, obje
     left = left_ranges(axle.ranges, float(np.bitwise_or.reduce(exceeded, None)))
     return {
         "ratio": axle.mesh.ratio,
+        "pinion_seal_torque": float(axle.pinion_seal_torque),
         "mesh": axle.mesh.name,
         "oil": axle.oil.name,
         "oil_data_high_degc": kelvin_to_celsius(axle.oil.temperature_high),

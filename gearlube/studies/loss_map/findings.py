@@ -142,7 +142,10 @@ def _drag(dataset: xr.Dataset) -> list[Finding]:
     torque = dataset["torque"].values
     if not torque[0] <= 0.0 <= torque[-1]:
         return []
-    idle = dataset["loss_torque"].isel(torque=int(np.argmin(np.abs(torque))))
+    at_rest = dataset.isel(torque=int(np.argmin(np.abs(torque))))
+    idle = at_rest["loss_torque"]
+    middle = {name: dataset.sizes[name] // 2 for name in ("temperature", "speed")}
+    parts = at_rest["loss"].isel(middle).values
     if not np.isfinite(idle.values).any():
         return []
     return [
@@ -150,7 +153,8 @@ def _drag(dataset: xr.Dataset) -> list[Finding]:
             NOTE,
             f"Turning without load takes {quantity_text(_least(idle), 'N·m')} to "
             f"{quantity_text(_most(idle), 'N·m')} at the pinion.",
-            f"Read at {float(idle['torque']):.3g} N·m, next to zero. Not in it: "
+            f"Read at {float(idle['torque']):.3g} N·m, next to zero; in the middle of the map "
+            f"{largest_losses(dataset['source'].values, parts)}. Not in it: "
             f"{dataset.attrs['not_modelled']}. Give preload and seals of the axle: they decide it.",
         )
     ]

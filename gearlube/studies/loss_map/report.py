@@ -200,6 +200,7 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
             for degree in some_temperatures(dataset)
         )
     ]
+    found[:0] = no_load_table(dataset)
     if dataset.attrs["uncertain"] and "swing" in dataset:
         swings = mean_swings(dataset)
         found.append(
@@ -218,6 +219,39 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
             )
         )
     return found
+
+
+def no_load_table(dataset: xr.Dataset) -> list[Table]:
+    """Return what turning without load takes of each part; none where no torque is near zero."""
+    torque = dataset["torque"].values
+    if not torque[0] <= 0.0 <= torque[-1]:
+        return []
+    degree = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
+    idle = dataset.isel(torque=int(np.argmin(np.abs(torque))), speed=shown_speeds(dataset))
+    idle = idle.sel(temperature=degree)
+    turning = idle["speed"].values * np.pi / 30.0
+    loss = {str(one): idle["loss"].sel(source=one).values for one in idle["source"].values}
+    pinion, whole = idle["pinion_bearing_loss"].values, sum(loss.values())
+    drag, seals, churning = (loss.pop(one) for one in ("bearing_torque", "seals", "churning"))
+    seal = np.minimum(dataset.attrs["pinion_seal_torque"] * turning, seals)
+    parts = {
+        "bearings of the pinion's shaft": pinion,
+        "bearings of the gear's shaft (differential)": drag - pinion,
+        "seal of the pinion": seal,
+        "wheel ends: seals and hubs": seals - seal,
+        "churning": churning,
+        "flanks and damping": sum(loss.values()),
+        "whole": whole,
+    }
+    columns = [Column(f"{float(v):.0f} rpm", "N·m", 3) for v in idle["speed"].values]
+    return [
+        Table(
+            title=f"Turning without load [N·m at the pinion] with oil of {degree:g} °C",
+            columns=[Column("part"), *columns],
+            rows=[[words, *(power / turning).tolist()] for words, power in parts.items()],
+            caption=f"Read at {float(idle['torque']):.3g} N·m. The preload of bearings is in it.",
+        )
+    ]
 
 
 def _some(values: xr.DataArray) -> xr.DataArray:

@@ -75,6 +75,7 @@ def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Elem
     drags: list[Element] = [
         Seal(name="pinion seal", body="pinion", torque=given.pinion_seal_torque),
         Seal(name="wheel seals", body="gear", torque=given.wheel_seal_torque),
+        Seal(name="wheel hubs", body="gear", torque=given.hub_torque),
         Churning(
             name="sump",
             body="gear",

@@ -53,7 +53,7 @@ from gearlube_core.mesh_table.kernels import R_P
 from gearlube_core.mesh_table.table import PAIRS
 from gearlube_core.oil.lubricant_state import LubricantState, lubricant_state
 
-N_EXTREMES = 7
+N_EXTREMES = 8
 _EXTREME_ANGLES = 4  # of a mesh period, where outputs are looked at
 
 
@@ -77,7 +77,7 @@ def _add_extremes(
     found : ndarray of shape (N_EXTREMES,)
         Least film ratio [-], highest temperature [K], sum of `range.exceeded`; means of the bound
         of the friction loss [W] and of the share of load outside the model's domain [-], and of
-        the same two of the bearings.
+        the same two of the bearings; the mean drag loss of the pinion's bearings [W].
     """
     friction, channels = work[AT_FRICTION:AT_CHANNELS], work[AT_CHANNELS:AT_EXPANSION]
     out = work[AT_SHOWN:AT_MEANS]
@@ -125,6 +125,7 @@ def _add_extremes(
     found[3] += friction[BOUND_POWER] / _EXTREME_ANGLES
     found[4] += most_loaded.outside / _EXTREME_ANGLES
     found[5] += bound / _EXTREME_ANGLES
+    found[7] += drag.bearings_p * m.w_p / _EXTREME_ANGLES
     if load > 0.0:
         found[6] += (one.load_outside + two.load_outside) / load / _EXTREME_ANGLES
 

@@ -63,6 +63,8 @@ class AxleLosses:
         Empty where extremes were not asked for.
     drag_bound, rollers_outside : ndarray
         The same of the drag of the bearings and of the load on their rollers, by solved films.
+    pinion_drag : ndarray
+        Drag loss of the bearings of the pinion's shaft alone [W]; empty likewise.
     bulk_temperature : ndarray
         Of the flanks' bulk [K]; that of the oil with `flank_bulk_resistance` 0.
     exceeded : ndarray
@@ -79,6 +81,7 @@ class AxleLosses:
     share_outside: Array
     drag_bound: Array
     rollers_outside: Array
+    pinion_drag: Array
     bulk_temperature: Array
     exceeded: Array
     status: Array
@@ -197,6 +200,7 @@ def axle_losses(
         share_outside=found[..., 4],
         drag_bound=found[..., 5],
         rollers_outside=found[..., 6],
+        pinion_drag=found[..., 7],
         bulk_temperature=bulk,
         status=status.astype(int),
     )

@@ -135,7 +135,7 @@ def drag_at(
         drag_of_shaft(p.bearing_p, pinion, p.preload_p, p.drag, oil, races_p).torque,
         drag_of_shaft(p.bearing_g, gear, p.preload_g, p.drag, oil, races_g).torque,
         seal_drag(w_p, p.pinion_seal_torque),
-        seal_drag(w_g, p.wheel_seal_torque),
+        seal_drag(w_g, p.wheel_seal_torque + p.hub_torque),
         churning_torque(w_g, oil.nu, p.oil.density, p.churning),
         races_p,
         races_g,

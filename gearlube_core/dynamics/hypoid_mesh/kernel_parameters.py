@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 from gearlube_core.bearings.bearing_type import ShaftBearings, without_loss
-from gearlube_core.drag import ChurningConstants, SealTorque
+from gearlube_core.drag import ChurningConstants, HubTorque, SealTorque
 from gearlube_core.dynamics.flank_force import BACKLASH
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForceConstants, MeshForceScalars
 from gearlube_core.dynamics.ranges import RangeLimits
@@ -32,6 +32,8 @@ class AxleScalars(MeshForceScalars):
         Total backlash 2b along the line of action [m], 0 to 2e-3.
     pinion_seal_torque, wheel_seal_torque : float
         Of the seal of the pinion's shaft, and of those of both wheels together [N.m], 0 to 100.
+    hub_torque : float
+        Of the bearings of both wheel hubs together, likewise; counted among the seals.
     """
 
     pinion_inertia: Annotated[float, _INERTIA]
@@ -41,6 +43,7 @@ class AxleScalars(MeshForceScalars):
     backlash: Annotated[float, BACKLASH]
     pinion_seal_torque: SealTorque = 0.0
     wheel_seal_torque: SealTorque = 0.0
+    hub_torque: HubTorque = 0.0
 
 
 class AxleParameters(NamedTuple):
@@ -66,6 +69,7 @@ class AxleParameters(NamedTuple):
     churning: ChurningConstants
     pinion_seal_torque: float  # N.m
     wheel_seal_torque: float  # of both seals [N.m]
+    hub_torque: float  # of the bearings of both wheel hubs [N.m]
     bearing_p: ShaftBearings
     bearing_g: ShaftBearings
     flank_law: FlankLaw
