@@ -23,6 +23,7 @@ from fmu_src.variables import FRICTION_VARIANTS, HYPOID_AXLE, SHARED_PRELOAD
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import read_content
 from gearlube_core.dynamics import hypoid_axle
+from gearlube_core.dynamics.hypoid_axle.loss_band import loss_sensitivities
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import GearLubeError, ParameterError, TableError
 from gearlube_core.film_model.chosen_model import file_of_model, model_in
@@ -61,11 +62,13 @@ def start_axle(
     inputs : sequence of float
         pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
     base : HypoidAxleParameters, optional
-        What the arguments change; by default the paper's axle.
+        What the arguments change; by default the paper's axle. The sensitivities of its losses
+        stay, whatever the arguments.
     """
     given = dict(arguments)
     speed = float(given.pop("pinion_speed"))
-    axle = hypoid_axle.HypoidAxle(axle_parameters(given, base))
+    band = loss_sensitivities(base or car_axle_in({}).axle)
+    axle = hypoid_axle.HypoidAxle(axle_parameters(given, base), band)
     pinion_torque, wheel_torque, oil_temperature = inputs
     axle.initialise(
         pinion_speed=speed,

@@ -1,8 +1,8 @@
 """What of an axle's constants depends on its mesh table and oils, and what they must be to be used.
 
     DataSizes | packed floats of the start values | without losses | numbers of the train |
-    film models | options | rows | numbers | levels | series of all options |
-    windows of all options
+    film models | sensitivities of the losses | options | rows | numbers | levels |
+    series of all options | windows of all options
 
 An axle's library is the same for all mesh tables, so it checks the constants that it is given.
 """
@@ -18,6 +18,7 @@ from fmu_src.object_code import array_at
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.parameters import ROLLERS_MAX
 from gearlube_core.contact.solid import contact_modulus
+from gearlube_core.dynamics.hypoid_axle.train_outputs import N_BAND
 from gearlube_core.dynamics.hypoid_mesh.flanks import N_FRICTION
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters, MeshStiffness, Radii
 from gearlube_core.dynamics.packed_mesh import N_CHANNELS, PackedMesh, pack_mesh
@@ -251,6 +252,7 @@ def check_axle_data(
     fits = _fits_map(values, s, ends, literals, counting) and _fits_mesh(values, ends, sizes)
     fits = fits and all_finite(values, 0, s.lossless)
     fits = fits and all_finite(values, s.film_model - s.numbers, s.film_model)
+    fits = fits and all_finite(values, s.options - N_BAND, s.options)
     fits = fits and is_whole(values[s.film_model + UNITS], 1.0, float(WIDTH))
     fits = fits and is_whole(values[s.roller_model + UNITS], 1.0, float(WIDTH))
     return 0 if fits else 1

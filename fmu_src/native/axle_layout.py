@@ -11,6 +11,7 @@ from fmu_src.native.axle_numbers import AxleTrain
 from fmu_src.native.parameter_map import AxleSettings, ParameterMap, write_packed
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
+from gearlube_core.dynamics.hypoid_axle.train_outputs import N_BAND
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import equivalent_mass, modal_damping
 from gearlube_core.dynamics.hypoid_mesh.parameters import MeshStiffness
@@ -153,7 +154,7 @@ def axle_places(found: ParameterMap, place: Any, axle: AxleTrain) -> AxlePlaces:
         numbers=numbers,
         film_model=film_model,
         roller_model=roller_model,
-        options=roller_model + N_ARRAY,
+        options=roller_model + N_ARRAY + N_BAND,  # between them the sensitivities of the losses
         settings=n_parameters,
         without_losses=without,
         own_numbers=own_numbers,

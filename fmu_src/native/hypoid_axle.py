@@ -47,6 +47,7 @@ from gearlube_core.arrays import Array, Offsets
 from gearlube_core.bearings.followed_shaft import SOLVED_FILMS
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
 from gearlube_core.dynamics.hypoid_axle import output_names
+from gearlube_core.dynamics.hypoid_axle.loss_band import loss_sensitivities
 from gearlube_core.dynamics.hypoid_axle.model import (
     NO_EQUILIBRIUM_CURE,
     NO_MODES_WORDS,
@@ -57,6 +58,7 @@ from gearlube_core.dynamics.hypoid_axle.model import (
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
 from gearlube_core.dynamics.hypoid_axle.state import PINION_TORQUE, WHEEL_TORQUE
 from gearlube_core.dynamics.hypoid_axle.train_outputs import (
+    N_BAND,
     gather_group,
     gather_motion,
     gather_outputs,
@@ -155,6 +157,7 @@ def _entry(
         numbers = array_at(pointer_at(work, at.own_numbers), at.n_numbers)
         scratch = array_at(pointer_at(work, at.scratch), at.series - at.scratch)
         s = array_at(state, at.states)
+        band = array_at(pointer_at(data, at.options - N_BAND), N_BAND)
         if operation in (_START, _RESUME):
             constants = array_at(data, ends.windows)
             given_parameters = array_at(parameters, n_parameters)
@@ -211,6 +214,7 @@ def _entry(
                 sizes,
                 scratch,
                 outputs_of,
+                band,
                 motion_of,
                 out,
             )
@@ -239,7 +243,7 @@ def _entry(
                 rate = 1.0  # the stored energy too
         status = int(operate(todo, own, temperature, numbers, memory, plan, size, rate, scratch))
         if todo == WRITE:
-            gather_outputs(s, scratch, outputs_of, out)
+            gather_outputs(s, scratch, outputs_of, band, out)
             return OK
         if status == OK and groups & _RATES:
             gather_rates(s, scratch, outputs_of, out)
@@ -291,6 +295,7 @@ def native_model(definition: Definition) -> NativeModel:
             axle.constants,
             flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
             roller_film_model("solved_films", by_default.roller_film_model),
+            loss_sensitivities(by_default).ravel(),
             *found.arrays[1:],
             packed_mesh.levels,
             *series,

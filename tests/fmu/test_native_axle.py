@@ -25,6 +25,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     RATES,
     STATE_NAMES,
 )
+from gearlube_core.dynamics.hypoid_axle.train_outputs import N_BAND
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.march import MAX_STEPS, TOO_MANY_STEPS
@@ -350,16 +351,17 @@ def test_constants_are_taken_only_if_every_size_and_place_in_them_fits(native):
     start = data.size - (ends.windows - data.size)  # where the options begin
     ends = data_ends(start, sizes)
     rollers = N_SIZES + int(place_of_each(KernelClasses(*KINDS)).bearing_p.n_rollers)
-    film = start - N_ARRAY + UNITS
+    band, film = start - 1, start - N_BAND - N_ARRAY + UNITS
     numbers = film - UNITS - N_FLANK_MODEL - 1  # the last one of the train
     places = [*range(N_SIZES), start, start + 1, ends.rows, ends.rows + 1, rollers, film, numbers]
+    places.append(band)
     for place in (*places, ends.levels - 1, ends.windows - 1):
         for value in (math.nan, math.inf, -1.0, 0.5, 1e300):
             damaged = data.copy()
             damaged[place] = value
             mesh = place >= ends.numbers  # where any finite number may be
             allowed = mesh and (value == 0.5 or (value == -1.0 and place == ends.windows - 1))
-            allowed = allowed or (place == numbers and abs(value) < 2.0)
+            allowed = allowed or (place in (numbers, band) and abs(value) < 2.0)
             assert native.takes(damaged, work) == allowed, (place, value)
     for place, value in ((rollers, 41.0), (rollers, 2.0), (film, 25.0), (start + 1, 1e4)):
         damaged = data.copy()

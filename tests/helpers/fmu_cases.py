@@ -11,7 +11,9 @@ from fmu_src import build, helical_pair, hypoid_axle
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
-from gearlube_core.dynamics.hypoid_axle import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
+from gearlube_core.dynamics.hypoid_axle.loss_band import loss_sensitivities
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.axle_cases import axle_with
@@ -116,6 +118,11 @@ def hypoid(**settings: Any) -> Any:
     return axle_parameters(late, axle) if late else axle
 
 
+def with_band(parameters: HypoidAxleParameters) -> HypoidAxle:
+    """The axle as its FMU has it: the band of its loss is that of the paper's axle."""
+    return HypoidAxle(parameters, loss_sensitivities(mohammadpour_2015_axle()))
+
+
 def settings_of(definition: Definition) -> dict[str, str]:
     """Names of the parameters of a model, without its start speed."""
     return {n: a for n, a in definition.arguments.items() if a != "pinion_speed"}
@@ -127,7 +134,7 @@ HYPOID_AXLE = Case(
     snapshot="value_references.json",
     arguments=settings_of(hypoid_axle.DEFINITION),
     parameters=hypoid,
-    model=HypoidAxle,
+    model=with_band,
     changed={"bearing.preload": 4000.0, "oil.name": 2, "pinion.speed_start": 150.0},
     reals={
         "pinion.torque": 80.0,

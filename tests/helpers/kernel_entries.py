@@ -145,6 +145,9 @@ def states_of_axle(rest, name):
     return states
 
 
+BAND = 0.1 * np.sin(np.arange(64.0))  # any sensitivities of losses
+
+
 def fmu_entries(record, name, axle, start):
     """The kernels by which FMUs write the motion after a step, rates and events."""
     given, made, out = axle.parameters, axle.assembly, np.zeros(N_OUTPUTS)
@@ -155,7 +158,8 @@ def fmu_entries(record, name, axle, start):
     at = tuple(plan[row + AT : row + AT + plan[row + N_PLACES]].tolist())
     motion = np.array([OUTPUT_INDEX[one] for one in MOTION_OUTPUTS])
     series = np.zeros(mesh.series_size)
-    gather_motion(s, p.mesh, at, memory, series, numbers, made.sizes, work, places, motion, out)
+    table = numbers, made.sizes, work, places, BAND, motion
+    gather_motion(s, p.mesh, at, memory, series, *table, out)
     record.keep(f"{name} motion", out)
     axle.operate(EXCHANGE, s, OIL, numbers, memory, plan, 0.0, 0.0, work)
     gather_rates(s, work, places, out)

@@ -22,6 +22,7 @@ from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle
+from gearlube_core.dynamics.hypoid_axle.loss_band import loss_sensitivities
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.uncertain import changed_axle, uncertain_of
 from gearlube_core.errors import ParameterError
@@ -142,7 +143,7 @@ def report():
         if name == "over_eta0_followed":
             found[name] = {"rib": of_rib}
             continue
-        axle = started(HypoidAxle(of_axle), SPEED, INPUTS)
+        axle = started(HypoidAxle(of_axle, loss_sensitivities(of_axle)), SPEED, INPUTS)
         line = line_friction(*LINE, of_axle.oil.state(OIL), SURFACE, SOLID)
         one = found[name] = {"axle": axle.outputs.tolist(), "line": line._asdict(), "rib": of_rib}
         if name == "gecim_winer":

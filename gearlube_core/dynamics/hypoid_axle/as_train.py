@@ -9,7 +9,11 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import without_loss
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS, OUTPUT_NAMES
-from gearlube_core.dynamics.hypoid_axle.train_outputs import gather_outputs, output_places
+from gearlube_core.dynamics.hypoid_axle.train_outputs import (
+    NO_BAND,
+    gather_outputs,
+    output_places,
+)
 from gearlube_core.dynamics.hypoid_mesh.mesh_force import reference_frequency
 from gearlube_core.dynamics.hypoid_mesh.parameters import (
     MARCH_WITH_WARM_FLANKS,
@@ -181,5 +185,5 @@ def axle_values(train: Train) -> dict[str, float]:
     2.4
     """
     made, out = train.assembly, np.zeros(N_OUTPUTS)
-    gather_outputs(*train.written(), output_places(made), out)
+    gather_outputs(*train.written(), output_places(made), NO_BAND, out)
     return dict(zip(OUTPUT_NAMES, out.tolist(), strict=True))

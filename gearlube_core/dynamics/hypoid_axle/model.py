@@ -12,7 +12,11 @@ from gearlube_core.dynamics.hypoid_axle.as_train import (
 )
 from gearlube_core.dynamics.hypoid_axle.output_names import OUTPUT_NAMES
 from gearlube_core.dynamics.hypoid_axle.state import CAGE_G, CAGE_P, PHI_G, PHI_P, W_G, W_P, X
-from gearlube_core.dynamics.hypoid_axle.train_outputs import gather_outputs, output_places
+from gearlube_core.dynamics.hypoid_axle.train_outputs import (
+    NO_BAND,
+    gather_outputs,
+    output_places,
+)
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_mesh.parameters import (
     MARCH_WITH_WARM_FLANKS,
@@ -91,6 +95,9 @@ class HypoidAxle(SteppedModel[StepControl]):
     Parameters
     ----------
     parameters : HypoidAxleParameters
+    loss_sensitivities : ndarray of shape (8, 8), optional
+        For `loss.low` and `loss.high`, see `loss_band.loss_sensitivities`; without them both are
+        the power lost in all.
 
     Notes
     -----
@@ -114,7 +121,9 @@ class HypoidAxle(SteppedModel[StepControl]):
     2400.1
     """
 
-    def __init__(self, parameters: HypoidAxleParameters) -> None:
+    def __init__(
+        self, parameters: HypoidAxleParameters, loss_sensitivities: Array = NO_BAND
+    ) -> None:
         if parameters.flank_bulk_resistance > 0.0:
             raise ParameterError(
                 f"{MARCH_WITH_WARM_FLANKS} Got {parameters.flank_bulk_resistance:g} K/W."
@@ -124,7 +133,7 @@ class HypoidAxle(SteppedModel[StepControl]):
         bodies, self.elements = hypoid_axle(parameters)
         made = assemble(bodies, self.elements, parameters.oil, kinds=())
         self._at_rest = numbers_at_rest(self.elements, made, parameters.oil)
-        self._places = output_places(made)
+        self._places, self._band = output_places(made), loss_sensitivities.ravel()
         super().__init__(
             made,
             output_names=OUTPUT_NAMES,
@@ -175,4 +184,4 @@ class HypoidAxle(SteppedModel[StepControl]):
         return StepControl(rate)
 
     def _gather(self) -> None:
-        gather_outputs(self._state, self._work, self._places, self._outputs)
+        gather_outputs(self._state, self._work, self._places, self._band, self._outputs)

@@ -100,7 +100,11 @@ _OUTPUTS: tuple[str, ...] = (
     *BEARING_FILMS,
 )
 # outputs that the table of the FMU's variables takes from here, with unit and text
-OWN_OUTPUTS: tuple[Output, ...] = ()
+_BAND = "end of the band of 95 % of the power lost in all, by its uncertain data"
+OWN_OUTPUTS: tuple[Output, ...] = (
+    Output("loss.low", "W", f"Lower {_BAND}", 100.0),
+    Output("loss.high", "W", f"Upper {_BAND}", 100.0),
+)
 # for another integrator: the other states, the rates of all, and the event indicators
 _OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
 OUTPUT_NAMES = (
@@ -132,6 +136,8 @@ LOSS_BOUND = OUTPUT_INDEX["friction.power_loss_bound"]
 EFFICIENCY_BOUND = OUTPUT_INDEX["efficiency_bound"]
 DRAG_LOSS_BOUND = OUTPUT_INDEX["bearing.power_loss_bound"]
 AXLE_EFFICIENCY_BOUND = OUTPUT_INDEX["axle.efficiency_bound"]
+LOSS_LOW = OUTPUT_INDEX["loss.low"]
+LOSS_HIGH = OUTPUT_INDEX["loss.high"]
 FIRST_ROLLER = OUTPUT_INDEX["bearing[1].roller[1].load"]
 PINION_CAGE = OUTPUT_INDEX["bearing[1].cage.angle"]
 GEAR_CAGE = OUTPUT_INDEX["bearing[3].cage.angle"]
@@ -158,6 +164,7 @@ MOTION_OUTPUTS: tuple[str, ...] = (
     OUTPUT_NAMES[GEAR_CAGE],
     *OUTPUT_NAMES[ENERGIES:STORED_ENERGY],
     *_OTHER_STATES,
+    *(one.name for one in OWN_OUTPUTS),
 )
 
 # what the right-hand side gives, besides what model exchange calls rates and event indicators
@@ -180,4 +187,6 @@ BEARING_GROUP: tuple[str, ...] = (
 )
 
 # of motion, what an input changes at once while no step has been taken
-POWERS = frozenset(OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1])
+POWERS = frozenset(
+    (*OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1], *(one.name for one in OWN_OUTPUTS))
+)

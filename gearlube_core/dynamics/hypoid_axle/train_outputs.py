@@ -26,6 +26,8 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     FILM_QUANTITIES,
     FRICTION_LOSS,
     LOSS_BOUND,
+    LOSS_HIGH,
+    LOSS_LOW,
     N_BEARINGS,
     N_OUTPUTS,
     OUTPUT_NAMES,
@@ -125,6 +127,9 @@ _SOURCES = (
     _LOAD_P, _SHARE_P, _LOAD_G, _SHARE_G, _DURATION,
 ) = range(N_OUTPUTS, N_OUTPUTS + len(_SOURCES) + 1)  # fmt: skip
 N_GATHERED = N_OUTPUTS + len(_SOURCES) + 1
+N_BAND = 64  # numbers of `loss_sensitivities`: eight losses in eight directions
+NO_BAND = np.zeros(N_BAND)
+_END, _WIDEST = 1.96, 7.0  # standard deviations that hold 95 %; of the logarithm of a band's end
 _NOWHERE = 0.5  # a place of an output that is made of others
 
 
@@ -162,7 +167,30 @@ def _value(s: Array, work: Array, places: Array, i: int) -> float:
 
 
 @kernel
-def _write_losses(s: Array, work: Array, places: Array, out: Array) -> None:
+def _write_band(s: Array, work: Array, places: Array, band: Array, out: Array) -> None:
+    """Write the ends of 95 % of the power lost in all; the power itself without a band.
+
+    low, high = P exp(-+1.96 sd), sd^2 = sum over directions of (sum over losses of P_i s_i)^2/P^2
+    """
+    viscous, boundary = _value(s, work, places, _VISCOUS), out[BOUNDARY_LOSS]
+    of_mesh, of_bearings = _value(s, work, places, _OF_MESH), _value(s, work, places, _OF_BEARINGS)
+    total = viscous + boundary + of_mesh + of_bearings + out[BEARING_LOSS]
+    total += out[CHURNING_LOSS] + out[SEAL_LOSS] + out[ROLLING_LOSS]
+    variance = 0.0
+    for k in range(0, N_BAND, 8):
+        moved = band[k] * viscous + band[k + 1] * boundary + band[k + 2] * of_mesh
+        moved += band[k + 3] * of_bearings + band[k + 4] * out[BEARING_LOSS]
+        moved += band[k + 5] * out[CHURNING_LOSS] + band[k + 6] * out[SEAL_LOSS]
+        moved += band[k + 7] * out[ROLLING_LOSS]
+        variance += moved * moved
+    wide = 1.0
+    if total > 0.0:  # powers of damping may cancel others for an instant
+        wide = math.exp(min(_END * math.sqrt(variance) / total, _WIDEST))
+    out[LOSS_LOW], out[LOSS_HIGH] = total / wide, total * wide
+
+
+@kernel
+def _write_losses(s: Array, work: Array, places: Array, band: Array, out: Array) -> None:
     """Write what sums up powers, and efficiencies.
 
     Efficiency is 1 - loss/input with the work put in at the side that drives; 0 where no work is
@@ -172,6 +200,7 @@ def _write_losses(s: Array, work: Array, places: Array, out: Array) -> None:
     ----------
     [mohammadpour_2015 (20)] [mohammadpour_2015 (21)]
     """
+    _write_band(s, work, places, band, out)
     duration = _value(s, work, places, _DURATION)
     friction = _value(s, work, places, _VISCOUS) + out[BOUNDARY_LOSS]
     damping = _value(s, work, places, _OF_MESH) + _value(s, work, places, _OF_BEARINGS)
@@ -190,7 +219,7 @@ def _write_losses(s: Array, work: Array, places: Array, out: Array) -> None:
 
 
 @kernel
-def gather_outputs(s: Array, work: Array, places: Array, out: Array) -> None:
+def gather_outputs(s: Array, work: Array, places: Array, band: Array, out: Array) -> None:
     """Write all outputs, in the order of OUTPUT_NAMES, into `out` of shape (N_OUTPUTS,).
 
     Powers are means over the last step, as those of the train.
@@ -203,10 +232,12 @@ def gather_outputs(s: Array, work: Array, places: Array, out: Array) -> None:
         As WRITE has left it.
     places : ndarray of shape (2 * N_GATHERED,)
         Of `output_places`.
+    band : ndarray of shape (64,)
+        Of `loss_sensitivities`, rows one after the other; `NO_BAND` for none.
     """
     for i in range(N_OUTPUTS):
         out[i] = _value(s, work, places, i)
-    _write_losses(s, work, places, out)
+    _write_losses(s, work, places, band, out)
     _write_share(s, work, places, out)
 
 
@@ -246,6 +277,7 @@ def gather_motion(
     sizes: Sizes,
     work: Array,
     places: Array,
+    band: Array,
     motion: Offsets,
     out: Array,
 ) -> None:
@@ -271,4 +303,4 @@ def gather_motion(
     work[first + OWN] = mesh.force
     for i in motion:
         out[i] = _value(s, work, places, i)
-    _write_losses(s, work, places, out)
+    _write_losses(s, work, places, band, out)
