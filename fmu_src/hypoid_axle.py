@@ -67,7 +67,7 @@ def start_axle(
     """
     given = dict(arguments)
     speed = float(given.pop("pinion_speed"))
-    band = loss_sensitivities(base or car_axle_in({}).axle)
+    band = loss_sensitivities(base or hypoid_axle.mohammadpour_2015_axle())
     axle = hypoid_axle.HypoidAxle(axle_parameters(given, base), band)
     pinion_torque, wheel_torque, oil_temperature = inputs
     axle.initialise(
