@@ -158,7 +158,7 @@ def stress_ratio(oil: FilmOil, p: float, cooling: float) -> tuple[float, float]:
     >>> from gearlube_core.oil.film_oil_data import film_oil
     >>> oil = film_oil(eta0=0.04, alpha=2e-8, eyring_slope=0.047)
     >>> round(1e-6 * oil.shear.tau0 * stress_ratio(oil, 1e9, 1.0)[0], 2)  # MPa at 1 GPa
-    6.59
+    7.28
     """
     if oil.eyring_slope == 0.0:
         return 1.0, 0.0

@@ -42,7 +42,7 @@ def loss_sensitivities(axle: HypoidAxleParameters) -> Array:
     >>> from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
     >>> rows = loss_sensitivities(mohammadpour_2015_axle())
     >>> seals = np.sqrt((rows**2).sum(axis=0))[LOSS_SOURCES.index("seals")]
-    >>> round(seals, 4)  # half of ln 2: known to a factor of 2 (k = 2)
+    >>> round(float(seals), 4)  # half of ln 2: known to a factor of 2 (k = 2)
     0.3466
     """
     oil, most = axle.oil, axle.torque_range[1]
