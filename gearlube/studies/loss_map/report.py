@@ -222,9 +222,12 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
 
 
 def no_load_table(dataset: xr.Dataset) -> list[Table]:
-    """Return what turning without load takes of each part; none where no torque is near zero."""
+    """Return what turning without load takes of each part.
+
+    None where no torque is near zero, or where an older map does not know the parts.
+    """
     torque = dataset["torque"].values
-    if not torque[0] <= 0.0 <= torque[-1]:
+    if not torque[0] <= 0.0 <= torque[-1] or "pinion_bearing_loss" not in dataset:
         return []
     degree = dataset["temperature"].values[dataset.sizes["temperature"] // 2]
     idle = dataset.isel(torque=int(np.argmin(np.abs(torque))), speed=shown_speeds(dataset))
