@@ -84,6 +84,7 @@ def study(store: Path) -> HelicalResults:
         density=density(),
         torques=TORQUES,
         separation_speeds=0,
+        friction="film",
     )
     logged: list[str] = []
 
