@@ -1,4 +1,4 @@
-"""What a report says of films: over the roughness, and those of the model of solved films."""
+"""Films in a report: over the roughness, and those of the model of solved films."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def hot_film(
 
 
 def film_model_attributes(models: Mapping[str, FilmModel]) -> dict[str, str]:
-    """Return what a dataset says of the film models that were taken, by kind of contact."""
+    """Return what a dataset has about the film models that were taken, by kind of contact."""
     return {f"{_ATTRIBUTE}{kind}": model.words for kind, model in models.items()}
 
 

@@ -24,7 +24,7 @@ SAFETY_DOMAIN = 2.0  # twice the size takes half of an error that falls with the
 
 
 class FilmNumbers(NamedTuple):
-    """What is told of a film; not a number: not known."""
+    """What is known of a film; not a number: not known."""
 
     central_film: float  # [m]
     minimum_film: float  # [m]
@@ -53,7 +53,7 @@ class OnGrid(Protocol):
 
     @property
     def numbers(self) -> FilmNumbers:
-        """What is told of the film."""
+        """What is known of the film."""
 
     @property
     def formal_order(self) -> float:

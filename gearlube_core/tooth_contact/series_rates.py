@@ -50,7 +50,7 @@ class RateParameter(Protocol):
 
 
 class PairNames(Protocol):
-    """What a mesh table says of its pair."""
+    """What a mesh table has about its pair."""
 
     name: str
     source: str

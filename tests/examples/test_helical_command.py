@@ -26,7 +26,7 @@ from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
     harmonics,
     periodic_response,
 )
-from gearlube_core.errors import ConvergenceError
+from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
 from tests.helpers.each import each
@@ -374,3 +374,10 @@ def test_a_pressure_that_no_flank_bears_is_explained():
             mark_edge_pressure(ax)
     assert not calm.texts
     assert "sharp edge" in sharp.texts[0].get_text()
+
+
+def test_a_boundary_coefficient_is_taken_as_given_and_refused_where_nothing_takes_it(asked):
+    run("--boundary-friction", "0.1")
+    assert asked[0]["settings"].film().asperities.boundary_friction == 0.1
+    with pytest.raises(ParameterError, match="only for --friction arana_2019, got --friction film"):
+        replace(asked[0]["settings"], friction="film")

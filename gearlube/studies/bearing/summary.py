@@ -1,4 +1,4 @@
-"""What the command says of bearing friction: error bar first, main numbers, warnings."""
+"""What the command prints about bearing friction: error bar first, main numbers, warnings."""
 
 from __future__ import annotations
 

@@ -142,6 +142,11 @@ class HelicalSettings:
     body: HelicalBodySettings = field(default_factory=HelicalBodySettings)
 
     def __post_init__(self) -> None:
+        if self.boundary_friction is not None and self.friction != AranaShare.name:
+            raise ParameterError(
+                f"--boundary-friction is only for --friction {AranaShare.name}, got --friction "
+                f"{self.friction}, whose asperities have the numbers of the oil. Leave it out."
+            )
         for name, options in (("mesh", MESHES), ("friction", FRICTIONS), ("parts", PARTS)):
             check_option(name, getattr(self, name), options)
         check_fields(self)
@@ -227,12 +232,15 @@ class HelicalSettings:
             oil_temperature=self.oil_temperature,
             solid=STEEL_MOHAMMADPOUR_2015,
             roughness_rms=self.roughness_rms,
-            asperities=AranaShare(boundary_friction=self.boundary_friction or ARANA_FRICTION)
-            if self.friction == AranaShare.name
-            else None,
+            asperities=self._asperities() if self.friction == AranaShare.name else None,
             film=self.film_model or self.file.film.model,
             line_film_model=self.line_film_model or gear_file_film_model(self.file),
         )
+
+    def _asperities(self) -> AranaShare:
+        """Return the share of the asperities, with the coefficient that was asked for."""
+        given = self.boundary_friction
+        return AranaShare(boundary_friction=ARANA_FRICTION if given is None else given)
 
     def parameters(self, mesh: LineMesh | None = None) -> HelicalPairParameters:
         """Return the vibrating pair with mu = 0; its mesh has one density if left out.

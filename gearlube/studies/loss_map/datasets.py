@@ -144,7 +144,7 @@ def not_modelled(axle: HypoidAxleParameters) -> tuple[str, ...]:
 
 
 def _of_film_model(losses: AxleLosses, pinion_power: Array, total: Array) -> dict[str, Any]:
-    """Return what a model of solved films says of itself."""
+    """Return name and bounds of a model of solved films."""
     put_in = np.where(pinion_power > 0.0, pinion_power, total - pinion_power)
     bound = covered_alone(losses.friction_bound, losses.share_outside)
     return {

@@ -90,7 +90,7 @@ class HypoidTorsionalParameters:
     film, film_temperature, flash_temperature, contact_pressure
         Options of "thermal_eyring", see `thermal_eyring_options`, `grubin_contact_geometry`.
     entrainment : {"vector_mean", "along_sliding"}
-        Ditto: the mean of both surface velocities, or as printed its part along sliding.
+        Likewise: the mean of both surface velocities, or as printed its part along sliding.
     oil : Lubricant
     oil_temperature : float
         [K]

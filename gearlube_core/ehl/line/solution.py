@@ -20,8 +20,8 @@ from gearlube_core.ehl.thin_film import thin_film_sentence
 class LineSolution:
     """Film, pressure and traction of a line contact.
 
-    Arrays are (n,) on `x` [m] unless said otherwise. `outcome` is one sentence; `converged` says
-    whether residual, load, film and complementarity all hold.
+    Arrays are (n,) on `x` [m], if no other shape is given. `outcome` is one sentence; `converged`
+    says whether residual, load, film and complementarity all hold.
     """
 
     problem: LineProblem
