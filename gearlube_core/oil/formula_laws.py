@@ -1,10 +1,11 @@
 """Laws of viscosity and shear of one's own in formulas of films and friction: kernels.
 
 A formula has the law that its source prints: Barus in Evans and Johnson's traction, Roelands at the
-ribs, Eyring in both. `Printed` stands for these, and costs nothing. An oil whose law comes from
-outside the package brings that law instead, see `film_laws`. Friction takes the viscosity under the
-pressure of the contact from it; films take alpha, its slope at ambient pressure. A shear law bounds
-the stress of the film by that of its isothermal flow. No formula knows the density under pressure.
+ribs, Eyring in both. `Printed` stands for these, and costs nothing. An oil with another
+law, of the package or of one's own, brings that law instead, see `film_laws`. Friction takes the
+viscosity under the pressure of the contact from it; films take alpha, by default its slope at
+ambient pressure. A shear law bounds the stress of the film by that of its isothermal flow. No
+formula knows the density under pressure.
 """
 
 from __future__ import annotations
@@ -91,6 +92,17 @@ def law_at(law: Any, eta0: float, alpha: float) -> Any:
 
 
 @kernel
+def _given_alpha(law: Any, alpha: float) -> float:
+    return alpha
+
+
+@by_class(_given_alpha)
+def alpha_at(law: Any, alpha: float) -> float:
+    """Return alpha of a viscosity law that has its own [1/Pa]; else that of the oil."""
+    raise NotImplementedError  # never run: it is the declaration of the kernels of that name
+
+
+@kernel
 def _own_mean_slope(law: Any, oil: Any, p: float) -> float:
     return log_viscosity(law, p, 1.0)[0] / p
 
@@ -164,7 +176,7 @@ def _own(law: Any) -> bool:
 
 @by_class(_own)
 def is_own(law: Any) -> bool:
-    """Return whether a law comes from outside the package."""
+    """Return whether a law is no printed one."""
     raise NotImplementedError  # never run: it is the declaration of the kernels of that name
 
 

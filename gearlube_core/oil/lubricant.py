@@ -15,6 +15,7 @@ from gearlube_core.oil.formula_laws import (
     FORMULA_LAWS,
     OilLaws,
     OverAlpha,
+    alpha_at,
 )
 from gearlube_core.oil.library import (
     LIBRARY_PATH,
@@ -94,7 +95,7 @@ class Lubricant:
         not known. The last is that of the viscosity at 1 GPa with the same alpha of films.
     viscosity_law, density_law, shear_law
         Laws of solved films, see `film_laws`; None: those of `film_oil_of`. Formulas of films and
-        friction take laws of viscosity and shear from outside the package, see `own_laws`.
+        friction take some of viscosity and shear, see `own_laws`.
 
     Notes
     -----
@@ -280,7 +281,7 @@ class Lubricant:
         return tuple(law for law in named if law is not None)
 
     def own_laws(self) -> tuple[OilLaws, ...]:
-        """Return what formulas take of laws from outside the package: one tuple, or none.
+        """Return what formulas take of laws that they do not know: one tuple, or none.
 
         Raises
         ------
@@ -315,7 +316,7 @@ class Lubricant:
     def _check_law(self, laws: OilLaws, name: str) -> None:
         for temperature in (self.alpha_temperature, self.temperature_low, self.temperature_high):
             state = lubricant_state(self.parameters(), float(temperature), laws)
-            slope = log_viscosity(state.viscosity, 0.0, 1.0)[1]
+            slope = alpha_at(state.viscosity, log_viscosity(state.viscosity, 0.0, 1.0)[1])
             if not abs(slope - state.alpha) <= _SLOPE_TOLERANCE * state.alpha:
                 raise ParameterError(
                     f"The slope of ln eta at ambient pressure by the viscosity law {name} must be "

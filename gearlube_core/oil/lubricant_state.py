@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws, law_at, mean_slope
+from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws, alpha_at, law_at, mean_slope
 from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
 from gearlube_core.oil.roelands_1966 import pressure_viscosity_coefficient
 from gearlube_core.oil.walther_1931 import walther_viscosity
@@ -87,6 +87,8 @@ def lubricant_state(
     A, B = modulus_at(parameters.factor, temperature)
     if A > 0.0:
         alpha = film_coefficient(A, B)
+    law = law_at(laws.viscosity, eta0, alpha)
+    alpha = alpha_at(law, alpha)
     tau0, Lambda = parameters.tau0, parameters.eyring_slope
     if Lambda > 0.0:
         tau0 = 2.0 * Lambda * (A + B * CONTACT_PRESSURE if A > 0.0 else 1.0 / alpha)
@@ -107,7 +109,7 @@ def lubricant_state(
         A,
         B,
         Lambda,
-        law_at(laws.viscosity, eta0, alpha),
+        law,
         laws.shear,
     )
 

@@ -9,20 +9,15 @@ Walther.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import Annotated, NamedTuple
+from dataclasses import dataclass
+from typing import Annotated
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.kernels.jit import kernel
 from gearlube_core.number import Number
-from gearlube_core.oil.film_laws import log_viscosity
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.named_laws import ViscosityLaw
 from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
-from gearlube_core.oil.walther_1931 import walther_viscosity
+from gearlube_core.oil.shape_law import ShapedViscosity, ShapeLaw
 
-_HALVINGS = 60  # of a range of temperatures
-_RANGE = (0.4, 2.5)  # of T over that of the oil, where a temperature is looked for
 _MANN = "falling-body viscosities by Mann to 0.5 GPa [arana_2019 Table 3]"
 
 _GPA, _HOT = 1e9, 353.15  # Pa, K
@@ -30,65 +25,8 @@ _LARGEST_B, _LEAST_GROWTH = 0.15, 1.0  # of B; of ln(eta/eta0) at 1 GPa
 _FVA = "the formula that [wingertszahn_2023] quotes"
 
 
-class Modulus(NamedTuple):
-    """The law for kernels; all floats, SI."""
-
-    factor: PressureFactor
-    walther_a: float  # [-]
-    walther_b: float  # [-]; 0: one viscosity at all temperatures
-    temperature: float  # of the oil [K]
-    unit: float  # of pressure [Pa]
-
-    @kernel
-    def log_viscosity(self, p: float, cooling: float) -> tuple[float, float]:
-        """Return ln(eta/eta0) and its derivative by p; below ambient pressure the tangent there."""
-        T = cooling * self.temperature
-        A, B = modulus_at(self.factor, T)
-        below = A + B * max(p * self.unit, 0.0)
-        value, slope = p * self.unit / below, self.unit * A / (below * below)
-        if cooling != 1.0 and self.walther_b > 0.0:
-            now = walther_viscosity(self.walther_a, self.walther_b, T)[0]
-            then = walther_viscosity(self.walther_a, self.walther_b, self.temperature)[0]
-            value += math.log(now / then)
-        return value, slope
-
-    @kernel
-    def cooling_factor(self, temperature: float, oil_temperature: float) -> float:
-        """Return T over that of the oil."""
-        return temperature / oil_temperature
-
-    @kernel
-    def cooling_at(self, p: float, log_ratio: float) -> float:
-        """Return T over that of the oil at which ln(eta/eta0) is `log_ratio`."""
-        if self.walther_b == 0.0:
-            return 1.0
-        low, high = _RANGE
-        for _ in range(_HALVINGS):
-            mid = 0.5 * (low + high)
-            if log_viscosity(self, p, mid)[0] > log_ratio:
-                low = mid
-            else:
-                high = mid
-        return 0.5 * (low + high)
-
-    @kernel
-    def viscosity_decline(self, p: float, temperature: float, oil_temperature: float) -> float:
-        """Return -d ln eta/dT [1/K]."""
-        if self.walther_b == 0.0:
-            return 0.0
-        f, x = self.factor, max(p * self.unit, 0.0)
-        A, B = modulus_at(f, temperature)
-        turn = f.a2 + (f.b2 if f.b1 + f.b2 * temperature >= B else 0.0) * x
-        beta = walther_viscosity(self.walther_a, self.walther_b, temperature)[1]
-        return beta + x * turn / (A + B * x) ** 2
-
-    def in_units(self, unit: float) -> Modulus:
-        """Return the law with pressure in a unit [Pa]."""
-        return self._replace(unit=self.unit * unit)
-
-
 @dataclass(frozen=True, kw_only=True)
-class ModulusLaw(ViscosityLaw, name="modulus"):
+class ModulusLaw(ShapeLaw, name="modulus"):
     """exp[p/(A + B p)] with numbers of an oil's own, by default of a paraffinic mineral oil.
 
     `at` scales the factor to the alpha of an oil.
@@ -99,14 +37,7 @@ class ModulusLaw(ViscosityLaw, name="modulus"):
     a2: Annotated[float, Number("Pa/K", 1e4, 2e6, source=_MANN)] = 2.26e5
     b1: Annotated[float, Number("1", -0.5, 0.5, source=_MANN)] = -68.20e-3
     b2: Annotated[float, Number("1/K", -1e-3, 2e-3, source=_MANN)] = 27.68e-5
-    factor_temperature: float = 353.15  # [K], where there is no oil
-    oil: Lubricant | None = None
     growth: float = 1.0  # viscosity at 1 GPa over that of these numbers, alpha of films kept [-]
-
-    def at(self, oil: Lubricant, temperature: float) -> tuple[ViscosityLaw, float]:
-        """Return the law of an oil at a temperature [K], and eta0 there [Pa s]."""
-        law = replace(self, oil=oil, factor_temperature=temperature)
-        return law, oil.dynamic_viscosity(temperature)
 
     def factor_of(self, oil: Lubricant) -> PressureFactor:
         """Return the factor that has the alpha of an oil.
@@ -135,14 +66,16 @@ class ModulusLaw(ViscosityLaw, name="modulus"):
     def _own(self) -> PressureFactor:
         return PressureFactor(float(self.a1), float(self.a2), float(self.b1), float(self.b2))
 
-    def __call__(self, eta0: float, alpha: float) -> Modulus:
+    def shape(self) -> PressureFactor:
+        """Return the factor for kernels: that of the oil, else with these numbers."""
+        return self._own if self.oil is None else self.factor_of(self.oil)
+
+    def __call__(self, eta0: float, alpha: float) -> ShapedViscosity:
         """Return the law for kernels; an oil's own alpha counts, else `alpha` of films."""
-        oil, T = self.oil, float(self.factor_temperature)
-        if oil is not None:
-            line = float(oil.walther_a), float(oil.walther_b)
-            return Modulus(self.factor_of(oil), *line, T, 1.0)
-        scale = alpha / film_coefficient(*modulus_at(self._own, T))
-        return Modulus(self._own.scaled(scale), 0.0, 0.0, T, 1.0)
+        T, shape, scale = float(self.factor_temperature), self.shape(), 1.0
+        if self.oil is None:
+            scale = float(alpha / film_coefficient(*modulus_at(shape, T)))
+        return ShapedViscosity(shape, scale, 1.0, self.line(), T, 1.0, 1.0)
 
 
 def _grown(factor: PressureFactor, growth: float) -> PressureFactor:

@@ -23,6 +23,13 @@ class PressureFactor(NamedTuple):
     b1: float  # [-]
     b2: float  # [1/K]
 
+    @kernel
+    def growth(self, x: float, temperature: float, cold: float) -> tuple[float, float]:
+        """Return ln(eta/eta0) and its slope by the pressure x [Pa] at a temperature [K]."""
+        A, B = modulus_at(self, temperature)
+        below = A + B * x
+        return x / below, A / (below * below)
+
     def scaled(self, scale: float) -> PressureFactor:
         """Return the factor that has at a pressure what this one has at `scale` times as much."""
         return self._replace(a1=self.a1 / scale, a2=self.a2 / scale)

@@ -41,6 +41,13 @@ def walther_viscosity(A: float, B: float, temperature: float) -> tuple[float, fl
     return nu_mm2_s * MM2_S, beta
 
 
+@kernel
+def walther_temperature(A: float, B: float, kinematic_viscosity: float) -> float:
+    """Return the temperature [K] at which the line has a viscosity [m2/s]."""
+    shifted = kinematic_viscosity / MM2_S + WALTHER_SHIFT
+    return math.exp((_LN10 * A - math.log(math.log(shifted) / _LN10)) / B)
+
+
 def walther_double_log(kinematic_viscosity: float) -> float:
     """Return log10 log10 (nu + 0.7) with nu in mm2/s, for nu [m2/s] given in SI."""
     return math.log10(math.log10(kinematic_viscosity / MM2_S + WALTHER_SHIFT))
