@@ -339,6 +339,7 @@ def with_own_oil(variable: Variable, oil: Lubricant, custom: str) -> Variable:
     literals = (custom,) if alone else (*variable.literals, custom)
     text = variable.description
     if alone:
-        laws = " and ".join(law.name for law in oil.laws if not law.ships)
+        own = [law.name for law in oil.laws if not getattr(law, "formulas_know", law.ships)]
+        laws = " and ".join(own)
         text += f", of the file alone: {', '.join(variable.literals)} do not have its law {laws}"
     return replace(variable, literals=literals, start=float(len(literals)), description=text)

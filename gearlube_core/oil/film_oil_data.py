@@ -114,7 +114,7 @@ def film_oil(
         eta0=float(eta0),
         rho0=float(rho0),
         viscosity=viscosity,
-        density=_density_law(density_law),
+        density=_density_law(density_law, temperature),
         shear=shear,
         tau_limit=float(limit),
         limit_slope=float(slope),
@@ -173,11 +173,11 @@ def _viscosity_law(law: Any, eta0: float, alpha: float | None) -> Any:
     return law
 
 
-def _density_law(law: Any) -> Any:
+def _density_law(law: Any, temperature: float) -> Any:
     if isinstance(law, str):
         law = DensityLaw.kind.named("density_law", law, {})
     if isinstance(law, DensityLaw):
-        law = law()
+        law = law.at(temperature)()
     if not isinstance(law, DowsonHigginson):
         _check_law("density_law", law, "density_ratio")
         _check_start("rho/rho0", density_ratio(law, 0.0)[0], 1.0)

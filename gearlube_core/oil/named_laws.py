@@ -5,11 +5,11 @@ and makes the NamedTuple for the kernels, see `film_laws`. It stands in any file
 or named as an entry point of the group `gearlube.laws`::
 
     @dataclass(frozen=True, kw_only=True)
-    class TaitDensity(DensityLaw, name="tait"):
+    class MyDensity(DensityLaw, name="my_density"):
         K0: Annotated[float, Number("Pa", 1e8, 1e10)] = 1.2e9
 
         def __call__(self):
-            return Tait(self.K0)
+            return MyDensityKernels(self.K0)
 
 Oil files, case files and `film_oil` take it by its name. Formulas of friction, as in axle and pair,
 take laws of viscosity and shear from outside the package, see `formula_laws`. Instead of the laws
@@ -71,6 +71,10 @@ class DensityLaw(Part):
     @abstractmethod
     def __call__(self) -> Any:
         """Return the law for kernels."""
+
+    def at(self, temperature: float) -> DensityLaw:
+        """Return the law at a temperature of the oil [K]."""
+        return self
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -251,7 +251,7 @@ class OilFile(InputFile):
         "formulas",
     )
     law_numbers: dict[str, float] | None = Field(
-        default=None, description="Numbers of laws of your own, by name, in SI units"
+        default=None, description="Numbers of the laws, by name, in SI units"
     )
     conductivity_w_m_k: OilConductivity = None
     heat_capacity_j_kg_k: OilHeatCapacity = None
@@ -298,7 +298,7 @@ class OilFile(InputFile):
         )
         given = self.model_dump(exclude_none=True, exclude={*laws, "law_numbers", "viscometer"})
         own = laws.get("viscosity_law")
-        if own is not None and not own.formulas_know:
+        if own is not None and not own.ships:
             given.setdefault("alpha_is", "slope")
         notes = [InputNote(field, law.name, "", "given", "") for field, law in laws.items()]
         if own is None:

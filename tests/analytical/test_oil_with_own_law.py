@@ -12,21 +12,19 @@ from tests.helpers.own_process import INTERPRETED, report_of
 
 def test_one_file_makes_the_law_known_to_oil_files_case_files_and_python():
     found = report_of("oil_with_own_law", **INTERPRETED)
-    assert (
-        "viscosity_law must be a text, barus or roelands or houpert or modulus" in found["before"]
-    )
+    assert "must be a text, barus or roelands or houpert or mcewen or modulus" in found["before"]
     films = found["films"]
     for name, q in (("oil file", Q), ("case with the oil file", Q), ("case", Q), ("python", 16.0)):
         *ratios, alpha = films[name]
         # an oil's alpha goes through Roelands' exponent, whose two constants agree to 4e-5
         assert alpha == pytest.approx(ALPHA, rel=4e-5)
-        # McEwen by hand; rounding of a power
+        # the power by hand; rounding of a power
         expected = [(1.0 + alpha * p / q) ** q for p in PRESSURES]
         assert ratios == pytest.approx(expected, rel=1e-12), name
     *barus, alpha = films["other law in the case"]
     assert barus == pytest.approx([math.exp(alpha * p) for p in PRESSURES], rel=1e-12)
     assert found["notes"] == [
-        ["viscosity_law", "mcewen", "", "given", ""],
+        ["viscosity_law", "own_power", "", "given", ""],
         ["law_numbers.q", Q, "1", "given", ""],
     ]
     unknown, low, nobody = found["refusals"]

@@ -20,7 +20,7 @@ SHEET = {
     "viscosity_100_degc_mm2_s": 14.0, "alpha_per_gpa": 15.0, "alpha_temperature_degc": 40.0,
     "alpha_is": "slope",
 }  # fmt: skip
-OWN = {"viscosity_law": "mcewen", "law_numbers": {"q": Q}}
+OWN = {"viscosity_law": "own_power", "law_numbers": {"q": Q}}
 
 
 def refusal(**changes):
@@ -40,7 +40,7 @@ def as_toml(data):
 def report():
     """Write eta/eta0 of the oil's films and what refuses, as JSON."""
     before = refusal(**OWN)
-    import_module("tests.helpers.mcewen_law")
+    import_module("tests.helpers.own_power_law")
     with TemporaryDirectory() as folder:
         path = Path(folder, "oil.toml")
         path.write_text(as_toml(SHEET | OWN))
@@ -50,8 +50,8 @@ def report():
         films = {
             "oil file": film_oil_of(described.lubricant, TEMPERATURE),
             "case with the oil file": Oil(**case).film_oil(),
-            "case": Oil(**numbers, law="mcewen", law_numbers={"q": Q}).film_oil(),
-            "python": film_oil(eta0=ETA0, alpha=ALPHA, law="mcewen"),
+            "case": Oil(**numbers, law="own_power", law_numbers={"q": Q}).film_oil(),
+            "python": film_oil(eta0=ETA0, alpha=ALPHA, law="own_power"),
             "other law in the case": Oil(**case, law="barus").film_oil(),
         }
     found = {
@@ -59,7 +59,9 @@ def report():
         for name, oil in films.items()
     }
     notes = [list(one) for one in described.inputs if "law" in one.field]
-    refusals = [refusal(viscosity_law="mcewen", law_numbers=one) for one in ({"r": 1.0}, {"q": 0})]
+    refusals = [
+        refusal(viscosity_law="own_power", law_numbers=one) for one in ({"r": 1.0}, {"q": 0})
+    ]
     refusals.append(refusal(law_numbers={"q": 16.0}))
     report = {"before": before, "films": found, "notes": notes, "refusals": refusals}
     sys.stdout.write(json.dumps(report))

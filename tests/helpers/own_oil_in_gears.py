@@ -49,13 +49,15 @@ LAWS = {
     "none": BARUS,
     "own_barus": {"viscosity_law": "own_barus"},
     "over_eta0_followed": {"viscosity_law": "over_eta0_followed"},
+    "own_power": {"viscosity_law": "own_power", "law_numbers": {"q": Q}},
     "mcewen": {"viscosity_law": "mcewen", "law_numbers": {"q": Q}},
+    "yasutomi": {"viscosity_law": "yasutomi"},
     "gecim_winer": BARUS | {"shear_law": "gecim_winer", "law_numbers": {"limit": LIMIT}},
 }
 
 
 def imported():
-    import_module("tests.helpers.mcewen_law")
+    import_module("tests.helpers.own_power_law")
     import_module("tests.helpers.gecim_winer_law")
     import_module("tests.helpers.viscosity_laws")
 
@@ -146,14 +148,14 @@ def report():
         axle = started(HypoidAxle(of_axle, loss_sensitivities(of_axle)), SPEED, INPUTS)
         line = line_friction(*LINE, of_axle.oil.state(OIL), SURFACE, SOLID)
         one = found[name] = {"axle": axle.outputs.tolist(), "line": line._asdict(), "rib": of_rib}
-        if name == "gecim_winer":
+        if name in ("gecim_winer", "mcewen", "yasutomi"):
             continue
         smooth = replace(pair_in(laws), roughness_rms=2e-8)
         pair = started(HelicalPairModel(smooth), PAIR_SPEED, PAIR_INPUTS)
         one["pair"] = pair.outputs.tolist()
         lost = axle_losses(of_axle, torques=[TORQUE], speeds=[SPEED], temperatures=[OIL], angles=4)
         one["viscous loss"] = lost.power[0, 0, 0, LOSS_SOURCES.index("friction_viscous")]
-        if name == "mcewen":
+        if name == "own_power":
             axle.step(1e-4, *INPUTS)
             pair.step(1e-4, *PAIR_INPUTS)
             one["axle moving"], one["pair moving"] = axle.outputs.tolist(), pair.outputs.tolist()
@@ -168,7 +170,7 @@ def report():
 def report_names():
     """Write what FMUs, error bars, film models and refusals know of a law, as JSON."""
     imported()
-    laws = LAWS["mcewen"]
+    laws = LAWS["own_power"]
     definition, pair = axle_definition(laws), pair_definition(laws)
     variables = {one.name: one for one in definition.variables}
     of_pair = {one.name: one for one in pair.variables}
@@ -190,7 +192,7 @@ def report_names():
         "starts": [variables["oil.name"].start, of_pair["oil.name"].start],
         "by number": [variables["oil.name.number"].maximum, of_pair["oil.name.number"].maximum],
         "description": variables["oil.name"].description,
-        "code": ["tests/helpers/mcewen_law.py" in contents(one) for one in (definition, pair)],
+        "code": ["tests/helpers/own_power_law.py" in contents(one) for one in (definition, pair)],
         "as given": [state.eta0, state.alpha],
         "moved": moved,
         "factors": {name: bars[name].factor for name in moved},
@@ -214,7 +216,7 @@ def report_native():
     from tests.helpers.object_code import LoadedModel
 
     imported()
-    laws, found = {**LAWS["mcewen"], **LAWS["gecim_winer"], "law_numbers": NUMBERS}, {}
+    laws, found = {**LAWS["own_power"], **LAWS["gecim_winer"], "law_numbers": NUMBERS}, {}
     for what, native, definition, inputs, speed in (
         ("axle", native_axle, axle_definition(laws), INPUTS, SPEED),
         ("pair", native_pair, pair_definition(laws), PAIR_INPUTS, PAIR_SPEED),

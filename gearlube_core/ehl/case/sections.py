@@ -227,7 +227,7 @@ class Oil(Section):
         "eyring with an Eyring stress and newtonian without",
     )
     law_numbers: dict[str, float] | None = Field(
-        default=None, description="Numbers of laws of your own, by name, in SI units"
+        default=None, description="Numbers of the laws, by name, in SI units"
     )
     eyring_stress_mpa: Stress | None = Field(
         default=None,

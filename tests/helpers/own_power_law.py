@@ -16,19 +16,20 @@ from gearlube_core.oil.named_laws import ViscosityLaw
 
 
 @dataclass(frozen=True, kw_only=True)
-class McEwenLaw(ViscosityLaw, name="mcewen", text="eta = eta0 (1 + alpha p/q)^q"):
-    """eta = eta0 (1 + alpha p/q)^q, McEwen 1952."""
+class OwnPowerLaw(ViscosityLaw, name="own_power", text="eta = eta0 (1 + alpha p/q)^q"):
+    """eta = eta0 (1 + alpha p/q)^q."""
 
     q: Annotated[
-        float, Number("1", 1.0, 100.0, text="Exponent of McEwen", source="mineral oils", factor=1.2)
+        float,
+        Number("1", 1.0, 100.0, text="Exponent of the power", source="mineral oils", factor=1.2),
     ] = 16.0
 
-    def __call__(self, eta0: float, alpha: float) -> McEwen:
+    def __call__(self, eta0: float, alpha: float) -> OwnPower:
         """Return the law for kernels."""
-        return McEwen(alpha, self.q)
+        return OwnPower(alpha, self.q)
 
 
-class McEwen(NamedTuple):
+class OwnPower(NamedTuple):
     """What the kernels take; all floats, SI."""
 
     alpha: float
