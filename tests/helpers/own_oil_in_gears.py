@@ -216,7 +216,7 @@ def report_native():
     from tests.helpers.object_code import LoadedModel
 
     imported()
-    laws, found = {**LAWS["own_power"], **LAWS["gecim_winer"], "law_numbers": NUMBERS}, {}
+    laws, found = {**LAWS["gecim_winer"], **LAWS["own_power"], "law_numbers": NUMBERS}, {}
     for what, native, definition, inputs, speed in (
         ("axle", native_axle, axle_definition(laws), INPUTS, SPEED),
         ("pair", native_pair, pair_definition(laws), PAIR_INPUTS, PAIR_SPEED),
