@@ -17,7 +17,9 @@ logger = logging.getLogger("gearlube")
 def compare(
     first: Annotated[
         str,
-        typer.Argument(help="Folder of results, or NAME=FOLDER to name it.", metavar="A"),
+        typer.Argument(
+            help="Folder of results, or NAME=FOLDER to name it; of films a case file.", metavar="A"
+        ),
     ],
     second: Annotated[str, typer.Argument(help="Another folder of the same study.", metavar="B")],
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_compare"),
@@ -30,8 +32,9 @@ def compare(
 
     Of a run and a table of measurements: the residuals with both uncertainties. A folder of
     `gearlube map` is compared with loss torques or efficiencies, of `gearlube bearing` with
-    friction torques, of `gearlube contact` with transmission errors by order. Each column of the
-    table ends with its unit, and one is the uncertainty.
+    friction torques, of `gearlube contact` with transmission errors by order. A case file of
+    `gearlube ehl point` is solved where central films were measured. Each column of the table ends
+    with its unit, and one is the uncertainty.
     """
     from gearlube.cli.study_run import study_run
     from gearlube.report.comparison import comparison

@@ -41,8 +41,12 @@ FEWEST = 3  # points inside the run's range
 _SAME = 1e-6  # relative distance of equal coordinates
 _CHANCE = 0.01  # by which fewer points are inside, if the bars hold 95 %
 _LEAST_EXPLAINED = 0.3  # share of the residuals' squares
-
 _DPI = 150
+_AXES = {  # of the residuals
+    "order": "order of the mesh frequency",
+    "speed_rpm": "speed [rpm]",
+    "entrainment_m_s": "mean speed of the surfaces [m/s]",
+}
 _FROM = {"rad/s": (rpm_to_rads(1.0), 0.0), "K": (1.0, ZERO_CELSIUS)}  # of a run, from a table's
 
 
@@ -114,8 +118,8 @@ class Compared:
     def explained(self) -> dict[str, tuple[float, float]]:
         """By input: the share of the residuals' squares that it takes away alone, largest first.
 
-        And how much of its bar that needs, below 0: less loss. Both with the residuals weighed by
-        the uncertainty of the measurements, and with the bar as prior.
+        And how much of its bar that needs, below 0: smaller values. Both with the residuals weighed
+        by the uncertainty of the measurements, and with the bar as prior.
         """
         weighed = self.residual / (0.5 * self.measured.uncertainty)
         found = {}
@@ -139,6 +143,10 @@ def compared(folder: Path, measured: Measurements) -> Compared:
         The results are damaged.
     """
     kind = KINDS[measured.kind]
+    if not kind.file:
+        from gearlube.report.measured_films import compared_films  # which knows this module
+
+        return compared_films(folder, measured)
     if not (folder / kind.file).is_file():
         raise ParameterError(
             f"{folder} must be a folder of `{kind.command}` with its {kind.file}, got none. "
@@ -256,7 +264,7 @@ def comparison_with_measured(found: Compared, run: str) -> Report:
         ],
         limits=(
             "Between the points of the run its results are taken along straight lines; beyond "
-            "them nothing is compared.",
+            "them nothing is compared. Films are solved at each point.",
             "E_n is the residual over the root of the sum of the squares of both uncertainties "
             "(k = 2). Up to 1 in size it is within them.",
             "One bar of the run holds for all its points together: with the same cause, all "
@@ -282,7 +290,7 @@ def residuals_text(found: Compared) -> str:
 def measured_figure(found: Compared) -> Any:
     """Return measured against predicted values, and residuals over the speed or the order."""
     measured, unit = found.measured, _unit(found)
-    column = "order" if "order" in measured.conditions else "speed_rpm"
+    column = next(name for name in _AXES if name in measured.conditions)
     at, value, own = measured.conditions[column], measured.value, measured.uncertainty
     below, above = np.maximum(
         np.nan_to_num([found.predicted - found.low, found.high - found.predicted]), 0.0
@@ -299,8 +307,7 @@ def measured_figure(found: Compared) -> Any:
         right.errorbar(at, 0.0 * at, [below, above], label="bar of the run", **grey)
         right.errorbar(at, found.residual, own, label="point with its bar", **look)
         right.axhline(0.0, color="black", lw=1.0)
-        words = {"order": "order of the mesh frequency", "speed_rpm": "speed [rpm]"}[column]
-        right.set(xlabel=words, ylabel=f"measured less predicted [{unit}]")
+        right.set(xlabel=_AXES[column], ylabel=f"measured less predicted [{unit}]")
         figure.legend(loc="outside lower center", ncols=3)
     return figure
 
@@ -371,7 +378,7 @@ def _findings(found: Compared) -> list[Finding]:
             words = (
                 f"The input {_words(name)} alone explains {100.0 * share:.0f} % of the residuals' "
                 f"squares, with {abs(part):.2f} of its bar towards "
-                f"{'more' if part > 0.0 else 'less'} loss."
+                f"{'larger' if part > 0.0 else 'smaller'} values."
             )
         result.append(Finding(NOTE, words, "The table has all inputs."))
     return result
@@ -387,7 +394,7 @@ def _explained(found: Compared) -> list[Table]:
         columns=[Column("input"), Column("explains", "%", 2), Column("of its bar", "", 2)],
         rows=[[_words(name), 100.0 * s, part] for name, (s, part) in found.explained.items()],
         caption="Share of the residuals' squares, weighed by the measurements' uncertainty, that "
-        "one input takes away alone, and the part of its bar that this needs; below 0: less loss. "
-        "Above 1 the input is hardly the only cause.",
+        "one input takes away alone, and the part of its bar that this needs; below 0: smaller "
+        "values. Above 1 the input is hardly the only cause.",
     )
     return [table] if found.explained else []

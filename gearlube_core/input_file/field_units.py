@@ -18,6 +18,7 @@ _UNITS = {  # of names' endings; the longest that fits counts
     "_mm": "mm",
     "_mm_per_rad": "mm/rad",
     "_um": "um",
+    "_nm": "nm",
     "_us": "us",
     "_deg": "deg",
     "_mrad": "mrad",

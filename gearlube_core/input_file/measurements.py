@@ -28,7 +28,7 @@ class Kind:
     # columns that say where, with their limits; without its unit each names a dimension of results
     conditions: Mapping[str, tuple[float, float]]
     command: str
-    file: str  # of results
+    file: str  # of results; "": it is computed at each point
     variable: str  # in it
     unit: str = "N.m"
     uncertainty: str = "uncertainty_n_m"  # column of it in that unit
@@ -55,6 +55,12 @@ KINDS = MappingProxyType(
             ("transmission_error_urad",),
             _TORQUE | {"order": (1.0, 100.0)},
             *("gearlube contact", "contact.nc", "amplitude", "urad", "uncertainty_urad"),
+        ),
+        "film": Kind(
+            "the central film of a point contact",
+            ("central_film_nm",),
+            {"entrainment_m_s": (1e-6, 200.0), "load_n": (1e-3, 1e6)} | _DEGC,
+            *("gearlube ehl point", "", "", "nm", "uncertainty_nm"),
         ),
     }
 )

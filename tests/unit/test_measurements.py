@@ -8,7 +8,9 @@ from typer.testing import CliRunner
 from gearlube.command import COMMANDS, command_line
 from gearlube.report.measured_run import compared, comparison_with_measured, residuals_text
 from gearlube_core.errors import ParameterError
+from gearlube_core.film.point_film import central_film_thickness, film_geometry
 from gearlube_core.input_file.measurements import read_measurements
+from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.storage.atomic_file import write_dataset
 
 HEAD = "speed_rpm,torque_n_m,temperature_degc,torque_loss_n_m,uncertainty_n_m"
@@ -150,3 +152,36 @@ def test_the_command_writes_report_table_and_figure(tmp_path):
     assert done.exit_code == 0, done.output
     assert {"report.html", "residuals.csv", "figures"} <= {one.name for one in out.iterdir()}
     assert "3 of 3 points are within the bars" in (out / "report.html").read_text()
+
+
+def test_films_of_a_case_are_solved_where_they_were_measured(tmp_path):
+    rows = ["0.4,20,40,259,10", "0.8,20,40,430,10", "1.6,20,40,700,10", "0.8,20,60,220,10"]
+    head = "entrainment_m_s,load_n,temperature_degc,central_film_nm,uncertainty_percent"
+    path = table(tmp_path, "\n".join([head, *rows]))
+    case = tmp_path / "ball.toml"
+    case.write_text(
+        'name = "ball"\nsource = "made up"\nradius_x_mm = 9.525\nradius_y_mm = 9.525\n'
+        "load_n = 1.0\nspeed_1_m_s = 1.0\nspeed_2_m_s = 1.0\nreduced_modulus_gpa = 124.0\n"
+        '[oil]\nlibrary = "fva_3"\nshear = "newtonian"\n'
+        "[solver]\nnodes_x = 65\nnodes_y = 65\n"
+    )
+    found = compared(case, read_measurements(path))
+    oil = read_oil("fva_3").lubricant
+    states = [oil.state(273.15 + one) for one in (40.0, 40.0, 40.0, 60.0)]
+    # E' of the case is 2 E*
+    formula = [
+        1e9 * central_film_thickness(R_e, side, s.eta0, s.alpha, u, 20.0, 124e9)
+        for (R_e, side), s, u in zip(
+            [film_geometry(9.525e-3, 9.525e-3, 0.0)] * 4, states, (0.4, 0.8, 1.6, 0.8), strict=True
+        )
+    ]
+    # the formula is within 20 % of solved films
+    np.testing.assert_allclose(found.predicted, formula, rtol=0.2)
+    slope = np.polyfit(np.log([0.4, 0.8, 1.6]), np.log(found.predicted[:3]), 1)[0]
+    assert slope == pytest.approx(0.68, abs=0.03)  # of all formulas of films
+    # by the batch of the oil and its alpha; the grid adds to it
+    least = np.exp(np.hypot(0.67 * np.log(1.08), 0.53 * np.log(oil.alpha_factor or 1.15)))
+    assert (found.high / found.predicted >= least).all()
+    assert residuals_text(found).splitlines()[0].endswith("residual_nm,en")
+    with pytest.raises(ParameterError, match="uncertainty_nm or uncertainty_percent"):
+        read_measurements(table(tmp_path, f"{head[:-20]}\n0.1,20,40,100\n"))
