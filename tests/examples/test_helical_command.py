@@ -376,8 +376,16 @@ def test_a_pressure_that_no_flank_bears_is_explained():
     assert "sharp edge" in sharp.texts[0].get_text()
 
 
-def test_a_boundary_coefficient_is_taken_as_given_and_refused_where_nothing_takes_it(asked):
+def test_numbers_of_the_share_are_taken_as_given_and_refused_where_nothing_takes_them(asked):
     run("--boundary-friction", "0.1")
-    assert asked[0]["settings"].film().asperities.boundary_friction == 0.1
-    with pytest.raises(ParameterError, match="only for --friction arana_2019, got --friction film"):
+    asperities = asked[0]["settings"].film().asperities
+    assert asperities.numbers == {"boundary_friction": 0.1, "share_exponent": 1.0}
+    with pytest.raises(ParameterError, match="takes --boundary-friction, got --friction film"):
         replace(asked[0]["settings"], friction="film")
+    run("--share-exponent", "0.5")
+    asperities = asked[1]["settings"].film().asperities
+    assert asperities.numbers == {"boundary_friction": 0.07, "share_exponent": 0.5}
+    with pytest.raises(ParameterError, match="takes --share-exponent, got --friction film"):
+        replace(asked[1]["settings"], friction="film")
+    with pytest.raises(ParameterError, match=r"share_exponent must be within 0\.2 to 5, got 0"):
+        replace(asked[1]["settings"], share_exponent=0.0).film()

@@ -69,6 +69,13 @@ def helical(
         float | None,
         typer.Option(help="Friction coefficient of asperities, of arana_2019. Default 0.07."),
     ] = None,
+    share_exponent: Annotated[
+        float | None,
+        typer.Option(
+            help="Exponent of the share that asperities carry, of arana_2019: below 1 they carry "
+            "more. Default 1."
+        ),
+    ] = None,
     mesh: Annotated[
         str | None,
         typer.Option(
@@ -199,6 +206,7 @@ def helical(
             speeds=tuple(rpm_to_rads(speed) for speed in speeds),
             friction=friction,
             boundary_friction=boundary_friction,
+            share_exponent=share_exponent,
             mesh=mesh or ("contact" if density is None else "density"),
             density=None if density is None else 1e9 * density,
             torques=tuple(sorted(set(torques or ()))),

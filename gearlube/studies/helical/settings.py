@@ -10,7 +10,6 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.greenwood_tripp_1971 import ARANA_FRICTION
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
@@ -32,7 +31,7 @@ from gearlube_core.helical_contact.mesh_cycle import CycleSettings
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.number import Number, check_fields
+from gearlube_core.number import Number, check_fields, numbers_of
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
@@ -79,8 +78,8 @@ class HelicalSettings:
     friction : {"arana_2019", "film", "constant"}
         "constant": constant coefficients only; the others: friction of the oil film too, with
         asperities by the share of Arana et al. or by Greenwood and Tripp.
-    boundary_friction : float, optional
-        Of the asperities with "arana_2019" [-]; default: that of the law.
+    boundary_friction, share_exponent : float, optional
+        Of the asperities with "arana_2019" [-]; default: those of the law.
     torques : tuple of float
         Pinion torques of the loaded contact [N.m]; empty: `LOAD_STEPS`.
     positions : int
@@ -125,6 +124,7 @@ class HelicalSettings:
     density: float | None = None
     friction: str = AranaShare.name
     boundary_friction: float | None = None
+    share_exponent: float | None = None
     torques: tuple[float, ...] = ()
     positions: int = 24
     oil: str | Lubricant | None = None
@@ -142,9 +142,10 @@ class HelicalSettings:
     body: HelicalBodySettings = field(default_factory=HelicalBodySettings)
 
     def __post_init__(self) -> None:
-        if self.boundary_friction is not None and self.friction != AranaShare.name:
+        if self._of_share() and self.friction != AranaShare.name:
+            named = " and ".join(f"--{name.replace('_', '-')}" for name in self._of_share())
             raise ParameterError(
-                f"--boundary-friction is only for --friction {AranaShare.name}, got --friction "
+                f"Only --friction {AranaShare.name} takes {named}, got --friction "
                 f"{self.friction}, whose asperities have the numbers of the oil. Leave it out."
             )
         for name, options in (("mesh", MESHES), ("friction", FRICTIONS), ("parts", PARTS)):
@@ -232,15 +233,17 @@ class HelicalSettings:
             oil_temperature=self.oil_temperature,
             solid=STEEL_MOHAMMADPOUR_2015,
             roughness_rms=self.roughness_rms,
-            asperities=self._asperities() if self.friction == AranaShare.name else None,
+            asperities=(
+                AranaShare(**self._of_share()) if self.friction == AranaShare.name else None
+            ),
             film=self.film_model or self.file.film.model,
             line_film_model=self.line_film_model or gear_file_film_model(self.file),
         )
 
-    def _asperities(self) -> AranaShare:
-        """Return the share of the asperities, with the coefficient that was asked for."""
-        given = self.boundary_friction
-        return AranaShare(boundary_friction=ARANA_FRICTION if given is None else given)
+    def _of_share(self) -> dict[str, float]:
+        """Return the numbers of the share of the asperities that were asked for."""
+        given = {name: getattr(self, name) for name in numbers_of(AranaShare)}
+        return {name: value for name, value in given.items() if value is not None}
 
     def parameters(self, mesh: LineMesh | None = None) -> HelicalPairParameters:
         """Return the vibrating pair with mu = 0; its mesh has one density if left out.
