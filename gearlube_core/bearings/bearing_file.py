@@ -46,7 +46,6 @@ _of, _rib = partial(Declared, BearingGeometry), partial(Declared, Rib)
 Rows = Annotated[int, _of("rows")]
 InnerAngle = Annotated[float, Field(ge=0.1, le=45.0, allow_inf_nan=False), Usual(2.0, 36.0)]
 Roughness = Annotated[float, _of("roughness_um"), Usual(0.02, 2.0)]
-TimkenFactor = Annotated[float, Field(ge=0.1, le=10000.0, allow_inf_nan=False)]
 Scale = Annotated[float, _of("rolling_scale")]
 Height = Annotated[float, Field(ge=0.1, le=50.0, allow_inf_nan=False), Usual(0.2, 20.0)]
 EndRadius = Annotated[float, _rib("end_radius")]
@@ -87,10 +86,6 @@ class LossBearingSection(BearingFields):
     )
     f0: Annotated[ViscousFactor, F0] = F0_TAPERED_OIL_BATH
     f1: Annotated[LoadFactor, F1] = F1_TAPERED
-    timken_g1: TimkenFactor | None = Field(
-        default=None,
-        description="Geometry factor G1 from the manufacturer, for the friction law of Timken",
-    )
     rolling_scale: Scale | None = Field(
         default=None,
         description="Measured rolling torque of this bearing divided by the computed one; if "
@@ -266,6 +261,5 @@ class BearingFile(InputFile):
             roughness=of.roughness_um * _MICROMETRE,
             f0=of.f0,
             f1=of.f1,
-            timken_g1=of.timken_g1 or 0.0,
             rolling_scale=of.rolling_scale,
         )

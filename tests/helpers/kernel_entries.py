@@ -282,7 +282,6 @@ def loss_entries(record):
     record.call("ring", roller_loads.ring_loads, 6000.0, 6500.0, BEARING.dry_rollers(), loads,
                 written=[loads])  # fmt: skip
     record.call("skf", catalogue.skf_torque, BEARING.skf(), 200.0, 6000.0, 3000.0, 6e-5)
-    record.call("timken", catalogue.timken_torque, 60.0, 200.0, 6000.0, 0.05)
 
 
 def helical_entries(record):

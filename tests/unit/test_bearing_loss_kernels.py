@@ -49,7 +49,6 @@ def test_wrong_geometry_is_refused_with_its_cure(changes, words):
         ({"radial_load": 20000.0}, ["axial_load must be at least 6999 N", "More"]),
         ({"axial_load": 2e6}, ["pressure", "4 GPa", "At most"]),
         ({"rpm": 20000.0}, ["speed", "1.382e+04 rpm"]),
-        ({"law": "timken"}, ["timken_g1"]),
         ({"law": "skf", "heating": "aihara"}, ["takes no heating"]),
         ({"law": "solved_films", "heating": "aihara"}, ["heated by themselves", "got aihara"]),
         ({"law": "harris"}, ["law must be one of", "zhou_hoeprich"]),

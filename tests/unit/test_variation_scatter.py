@@ -170,7 +170,9 @@ def test_a_wrong_tolerance_of_a_bearing_is_refused(tolerances, said):
 
 
 def test_a_bearing_scatters_about_no_field_that_its_file_leaves_out():
-    data = {"tolerances": {"bearing.timken_g1": {"plus_minus": 5.0}}}
+    data = {"tolerances": {"bearing.rolling_scale": {"plus_minus": 0.1}}}
     file = BearingFile.named("wingertszahn_2023").varied(data)
-    with pytest.raises(ParameterError, match=r"bearing\.timken_g1 needs a value .*does not use"):
+    with pytest.raises(
+        ParameterError, match=r"bearing\.rolling_scale needs a value .*does not use"
+    ):
         scatter(BearingPoint(file=file))

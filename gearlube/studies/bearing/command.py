@@ -40,8 +40,7 @@ def bearing(
         list[str] | None,
         typer.Option(
             help="Repeat it for several: zhou_hoeprich, biboulet_houpert, goksem_hargreaves, "
-            "aihara, solved_films, palmgren, skf, timken, or all that the file has numbers for. "
-            "Default: palmgren and zhou_hoeprich.",
+            "aihara, solved_films, palmgren, skf, or all. Default: palmgren and zhou_hoeprich.",
             metavar="LAW",
         ),
     ] = None,
@@ -122,9 +121,7 @@ def bearing(
         fastest = rads_to_rpm(LARGEST_SPEED_FACTOR / geometry.pitch_diameter)
         laws = list(law or DEFAULT_LAWS)
         if "all" in laws:
-            without = () if given.bearing.timken_g1 else ("timken",)
             laws = [DEFAULT_LAWS[0], *(one for one in LAWS if one != DEFAULT_LAWS[0])]
-            laws = [one for one in laws if one not in without]
         if film_model is not None and "solved_films" not in laws:
             raise ParameterError(
                 f"--film-model needs --law solved_films, got {film_model} with {', '.join(laws)}. "

@@ -17,7 +17,6 @@ LAW_NAMES = {one.name: one.words for one in ROLLING} | {
     "solved_films": "Solved films",
     "palmgren": "Palmgren",
     "skf": "SKF",
-    "timken": "Timken",
 }
 _AXES = {
     "speed": "shaft speed [rpm]",

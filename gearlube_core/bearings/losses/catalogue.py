@@ -1,4 +1,4 @@
-"""Friction torque of roller bearings after catalogues: Palmgren, SKF and Timken."""
+"""Friction torque of roller bearings after catalogues: Palmgren and SKF."""
 
 from __future__ import annotations
 
@@ -33,7 +33,6 @@ FULL_FILM_FRICTION = 0.002  # of a full film between tapered rollers and rib
 STARVATION = 3e-8  # K_rs of oil bath and jet; 6e-8 of grease
 GEOMETRY = 6.0  # K_Z of tapered roller bearings
 _RPM = 30.0 / math.pi
-COEFFICIENT = 2.56e-6  # with rpm, mPa s, N and N m; not checked against the printed source
 
 
 @kernel
@@ -138,35 +137,3 @@ def skf_torque(
     mu = share * BOUNDARY_FRICTION + (1.0 - share) * FULL_FILM_FRICTION
     M_sl = b.S1 * d_m**0.82 * (radial_load + S2 * b.Y * axial_load) * mu
     return 1e-3 * M_rr, 1e-3 * M_sl
-
-
-@kernel
-def timken_torque(G1: float, speed: float, axial_load: float, eta0: float) -> float:
-    """Return the running torque of one row of a tapered roller bearing.
-
-    T = 2.56e-6 G1 (n eta)^0.62 F_a^0.3  in N m, rpm, mPa s, N
-
-    Parameters
-    ----------
-    G1
-        Geometry factor of the bearing, from its manufacturer [-].
-    speed
-        Of the shaft, not negative [rad/s].
-    axial_load
-        F_a, that rules where all rollers are loaded [N].
-    eta0
-        Viscosity [Pa s].
-
-    Returns
-    -------
-    float
-        T [N m].
-
-    Notes
-    -----
-    Coefficient and exponents are not checked against the printed source. [witte_1973] has the
-    exponents 2/3 and 1/3.
-    Source: [timken_2011]
-    """
-    n = speed * 30.0 / math.pi
-    return COEFFICIENT * G1 * (n * 1e3 * eta0) ** 0.62 * axial_load**0.3

@@ -102,8 +102,6 @@ class BearingGeometry:
         Composite rms roughness of roller and race [m].
     f0, f1 : float
         Viscous and load factor of `drag_torque` [-].
-    timken_g1 : float
-        Geometry factor of `timken_torque`; 0: not known [-].
     rolling_scale : float, optional
         Measured rolling torque divided by the computed one; None: not calibrated [-].
     solid : Solid
@@ -143,7 +141,6 @@ class BearingGeometry:
     roughness: Annotated[float, ROUGHNESS] = 0.16e-6
     f0: Annotated[float, VISCOUS_FACTOR] = F0_TAPERED_OIL_BATH
     f1: Annotated[float, LOAD_FACTOR] = F1_TAPERED
-    timken_g1: Annotated[float, Number("1", 0.0, 1e4)] = 0.0
     rolling_scale: Annotated[float | None, Number("1", 0.05, 5.0)] = None
     solid: Solid = STEEL_MOHAMMADPOUR_2015
 

@@ -127,7 +127,7 @@ ROLLING_LAWS = {one.name: code for code, one in enumerate(ROLLING)}
 SOLVED_FILMS = -1
 RACE_LAWS = {**ROLLING_LAWS, "solved_films": SOLVED_FILMS}
 MATERIAL_LIMIT_WORDS = "M 0.2 to 200, L 4 to 16"  # range of biboulet_houpert_2010
-CATALOGUE_LAWS = ("palmgren", "skf", "timken")
+CATALOGUE_LAWS = ("palmgren", "skf")
 PALMGREN, SKF = 0, 1  # of them, for kernels
 LAWS = (*RACE_LAWS, *CATALOGUE_LAWS)
 # of `gearlube bearing`, of axles and of their FMU: it needs no more than a catalogue has

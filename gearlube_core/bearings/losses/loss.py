@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.bearings.losses.catalogue import drag_torque, skf_torque, timken_torque
+from gearlube_core.bearings.losses.catalogue import drag_torque, skf_torque
 from gearlube_core.bearings.losses.geometry import BearingGeometry
 from gearlube_core.bearings.losses.laws import (
     CATALOGUE_LAWS,
@@ -36,17 +36,16 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import LubricantState
 
 # Factors of the error bar, k = 2. A priori 2: the state of lubrication is not known. More where
-# the misfits of measured bearings ask for it, see docs/bearing.md; timken was not compared.
+# the misfits of measured bearings ask for it, see docs/bearing.md.
 UNCALIBRATED = {one.name: one.factor for one in ROLLING} | {
     "palmgren": 3.0,
-    "timken": 3.0,
     "skf": 5.5,
     "solved_films": 5.0,
 }
 CALIBRATED = 1.25  # with a measured torque of the bearing
 LARGEST_PRESSURE = 4e9  # Pa, static limit of rolling bearings with line contact
 LARGEST_SPEED_FACTOR = 1500.0 * math.pi / 30.0  # m rad/s: n d_m of 1.5e6 mm/min
-PARTS = ("rolling", "sliding", "rib", "drag", "hysteresis", "viscous", "load", "whole")
+PARTS = ("rolling", "sliding", "rib", "drag", "hysteresis", "viscous", "load")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -181,9 +180,6 @@ def bearing_loss(
         viscous = drag_torque(speed, 0.0, 0.0, state.nu, p)
         parts = {"viscous": rows * viscous, "load": rows * (whole - viscous)}
         return _sum(parts, speed, factor, (nan, nan, nan, 0.0))
-    if model.law == "timken":
-        whole = timken_torque(geometry.timken_g1, speed, F_a, state.eta0)
-        return _sum({"whole": rows * whole}, speed, factor, (nan, nan, nan, 0.0))
     loads = np.zeros(geometry.n_rollers)
     ring_loads(F_a, F_r, geometry.dry_rollers(), loads)
     settings = LossSettings(
@@ -260,11 +256,6 @@ def check_condition(
     if model.temperature_rise:
         oil.check_temperature(
             temperature + model.temperature_rise, "temperature with temperature_rise"
-        )
-    if model.law == "timken" and geometry.timken_g1 == 0.0:
-        raise ParameterError(
-            "The law timken needs timken_g1, the geometry factor G1 of the manufacturer, got none. "
-            "Give it, or take another law."
         )
     tan = math.tan(geometry.outer_angle)
     if radial_load * tan > LARGEST_RATIO * axial_load:
