@@ -283,7 +283,9 @@ class OilFile(InputFile):
                 f"{' and '.join(twice)} must be left out with viscometer, from which they follow"
             )
         try:
-            self.described()
+            oil = self.described().lubricant
+            if all(law.ships for law in oil.laws):
+                oil.own_laws()  # refuses a glass
         except ParameterError as reason:
             raise ValueError(str(reason).removesuffix(".")) from None
         return self

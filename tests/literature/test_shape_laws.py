@@ -188,8 +188,11 @@ def test_films_answer_to_the_alpha_of_films_whatever_the_law(law, film):
 
 
 def test_an_oil_that_is_glass_under_little_pressure_is_refused():
-    oil = lubricant("yasutomi", law_numbers={"Tg0": 260.0, "A1": 200.0})
+    glass = {"law_numbers": {"Tg0": 260.0, "A1": 200.0}}
     with pytest.raises(ParameterError, match=r"liquid to 0\.2 GPa, got a glass temperature of 2"):
-        replace(oil, temperature_low=262.0).state(273.15)
+        lubricant("yasutomi", **glass)
+    oil = lubricant("yasutomi", temperature_low_degc=25.0, **glass)
+    with pytest.raises(ParameterError, match="Raise the lowest temperature"):
+        replace(oil, temperature_low=262.0).state(298.15)
     with pytest.raises(ParameterError, match=r"b2 must be within -1 to 0, got 0\.4"):
         lubricant("yasutomi", law_numbers={"b2": 0.4})
