@@ -7,7 +7,9 @@ from dataclasses import replace
 
 import pytest
 
+from gearlube.studies.films.film_formulas import line_film_formulas
 from gearlube_core.errors import ParameterError
+from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.oil.film_laws import (
     cooling_at,
     cooling_factor,
@@ -24,7 +26,7 @@ from gearlube_core.oil.shape_law import OilLine, ShapedViscosity, growth
 from gearlube_core.oil.tait_law import TaitDensity
 from gearlube_core.oil.yasutomi_law import Yasutomi
 from tests.helpers.each import each
-from tests.helpers.small_films import line_film, point_film
+from tests.helpers.small_films import line_contact, line_film, point_film
 
 SHEET = {
     "name": "sheet", "base_oil": "pao", "density_kg_m3": 850.0, "viscosity_40_degc_mm2_s": 100.0,
@@ -185,6 +187,17 @@ def test_films_answer_to_the_alpha_of_films_whatever_the_law(law, film):
     )
     # shapes within 1 %; Tait's density at 0.5 GPa is 2 % below that of Dowson and Higginson
     assert found == pytest.approx(roelands, rel=0.03)
+
+
+@each("law", [*LAWS, "modulus_pao"])
+def test_film_formulas_beside_solved_films_take_the_alpha_of_films(law):
+    contact = line_contact(film_oil_in(law))
+    state = lubricant(law).state(HOT)
+    # the sum of 48 points, of the pressure factor an expansion that is right to 1e-3
+    expected = line_film_thickness(
+        contact.radius, state.eta0, state.alpha, 0.5, contact.line_load, contact.reduced_modulus
+    )
+    assert line_film_formulas(contact)[0].film == pytest.approx(expected, rel=1e-3)
 
 
 def test_an_oil_that_is_glass_under_little_pressure_is_refused():

@@ -24,6 +24,7 @@ from gearlube_core.film.point_film import (
     minimum_film_thickness,
 )
 from gearlube_core.oil.film_oil import pressure_viscosity
+from gearlube_core.oil.formula_laws import alpha_at
 
 ROUGHNESS = "roughness_rms"  # attribute of a film: composite rms roughness [m], where it was given
 RATIO_FILMS = ("central film", "smallest film")
@@ -86,9 +87,12 @@ class FilmFormula(NamedTuple):
 
 
 def line_film_formulas(problem: LineProblem) -> list[FilmFormula]:
-    """Return films of formulas for a line contact; none for a constant viscosity."""
+    """Return films of formulas for a line contact; none for a constant viscosity.
+
+    alpha is that of films, of an oil whose law has one; else the slope at ambient pressure.
+    """
     oil, u = problem.lubricant, abs(problem.entrainment_speed)
-    alpha = pressure_viscosity(oil)
+    alpha = alpha_at(oil.viscosity, pressure_viscosity(oil))
     if not alpha > 0.0:
         return []
     contact = (problem.radius, oil.eta0, alpha, u, problem.line_load, problem.reduced_modulus)
@@ -112,7 +116,7 @@ def point_film_formulas(problem: PointContactProblem) -> list[FilmFormula]:
     the minor axis of the contact; Chittenden's at any angle.
     """
     oil, (u, v) = problem.lubricant, problem.entrainment
-    alpha, speed = pressure_viscosity(oil), math.hypot(u, v)
+    alpha, speed = alpha_at(oil.viscosity, pressure_viscosity(oil)), math.hypot(u, v)
     if not alpha > 0.0:
         return []
     R_x, R_y, psi = problem.hertz.R_x, problem.hertz.R_y, math.atan2(abs(v), abs(u))
