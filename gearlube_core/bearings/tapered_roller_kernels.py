@@ -9,7 +9,6 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import RollerFilms, ShaftMotion, SolvedRaceways
 from gearlube_core.bearings.losses.catalogue import (
     SMOOTHING_SPEED,
-    SkfBearing,
     drag_torque,
     skf_torque,
 )
@@ -116,14 +115,7 @@ def skf_drag(
     Rolling of the raceways and sliding of the rib, see `skf_torque`; without its drag term. The
     factor in w, with w0 = 1 rad/s, makes the torque smooth through zero speed.
     """
-    bearing = SkfBearing(
-        p.mean_diameter - 0.5 * p.ring_section,
-        p.mean_diameter + 0.5 * p.ring_section,
-        p.skf_rolling,
-        p.skf_sliding,
-        0.5 * p.axial_factor,
-    )
-    rolling, sliding = skf_torque(bearing, abs(speed), axial_load, radial_load, nu)
+    rolling, sliding = skf_torque(abs(speed), axial_load, radial_load, nu, p)
     smooth = speed / math.sqrt(speed * speed + SMOOTHING_SPEED * SMOOTHING_SPEED)
     return (rolling + sliding) * smooth
 

@@ -281,7 +281,7 @@ def loss_entries(record):
                             w, oil, model)  # fmt: skip
     record.call("ring", roller_loads.ring_loads, 6000.0, 6500.0, BEARING.dry_rollers(), loads,
                 written=[loads])  # fmt: skip
-    record.call("skf", catalogue.skf_torque, BEARING.skf(), 200.0, 6000.0, 3000.0, 6e-5)
+    record.call("skf", catalogue.skf_torque, 200.0, 6000.0, 3000.0, 6e-5, BEARING.dry_rollers())
 
 
 def helical_entries(record):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.kernels.jit import kernel
@@ -81,19 +80,9 @@ def drag_torque(
     return magnitude * speed / math.sqrt(speed * speed + SMOOTHING_SPEED * SMOOTHING_SPEED)
 
 
-class SkfBearing(NamedTuple):
-    """What the law needs of a bearing; all floats, SI."""
-
-    bore: float  # d [m]
-    outside: float  # D [m]
-    R1: float  # of the series [-]
-    S1: float  # of the series [-]
-    Y: float  # axial load factor [-]
-
-
 @kernel
 def skf_torque(
-    b: SkfBearing, speed: float, axial_load: float, radial_load: float, nu: float
+    speed: float, axial_load: float, radial_load: float, nu: float, p: BearingParameters
 ) -> tuple[float, float]:
     """Return the rolling and the sliding moment of a tapered roller bearing.
 
@@ -105,14 +94,14 @@ def skf_torque(
 
     Parameters
     ----------
-    b
-        Bearing.
     speed
         Of the shaft, not negative [rad/s].
     axial_load, radial_load
         F_a, F_r, not negative [N].
     nu
         Kinematic viscosity of the oil [m2/s].
+    p
+        Bearing.
 
     Returns
     -------
@@ -125,15 +114,14 @@ def skf_torque(
     be found. The constants of the series are not checked against the printed source.
     Source: [skf_2013]
     """
-    d, D = 1e3 * b.bore, 1e3 * b.outside
-    d_m = 0.5 * (d + D)
+    d_m, section, Y = 1e3 * p.mean_diameter, 1e3 * p.ring_section, 0.5 * p.axial_factor
     n = speed * _RPM
     v = 1e6 * nu
     heating = 1.0 / (1.0 + 1.84e-9 * (n * d_m) ** 1.28 * v**0.64)
-    starving = math.exp(-STARVATION * v * n * (d + D) * math.sqrt(GEOMETRY / (2.0 * (D - d))))
-    rolling_load = (radial_load + R2 * b.Y * axial_load) ** 0.31
-    M_rr = heating * starving * b.R1 * d_m**2.38 * rolling_load * (v * n) ** 0.6
+    starving = math.exp(-STARVATION * v * n * 2.0 * d_m * math.sqrt(GEOMETRY / (2.0 * section)))
+    rolling_load = (radial_load + R2 * Y * axial_load) ** 0.31
+    M_rr = heating * starving * p.skf_rolling * d_m**2.38 * rolling_load * (v * n) ** 0.6
     share = math.exp(-2.6e-8 * (n * v) ** 1.4 * d_m)
     mu = share * BOUNDARY_FRICTION + (1.0 - share) * FULL_FILM_FRICTION
-    M_sl = b.S1 * d_m**0.82 * (radial_load + S2 * b.Y * axial_load) * mu
+    M_sl = p.skf_sliding * d_m**0.82 * (radial_load + S2 * Y * axial_load) * mu
     return 1e-3 * M_rr, 1e-3 * M_sl

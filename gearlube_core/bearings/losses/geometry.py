@@ -9,10 +9,7 @@ from typing import Annotated
 from gearlube_core.bearings.losses.catalogue import (
     F0_TAPERED_OIL_BATH,
     F1_TAPERED,
-    OTHER_SERIES,
-    SERIES,
     SERIES_NAMES,
-    SkfBearing,
 )
 from gearlube_core.bearings.losses.physical_loss import LossParameters
 from gearlube_core.bearings.losses.rib import (
@@ -229,11 +226,6 @@ class BearingGeometry:
         inner, outer = self.race_radii
         return inner * outer / (inner + outer)
 
-    @property
-    def axial_factor(self) -> float:
-        """Y = 0.4 cot(outer angle) [-]."""
-        return 0.4 / math.tan(self.outer_angle)
-
     def dry_rollers(self) -> TaperedRollerParameters:
         """Return the rollers for `ring_loads`: no film, no preload, no loss."""
         inner, outer = self.race_radii
@@ -253,16 +245,10 @@ class BearingGeometry:
             approach="full",
             film="off",
             solid=self.solid,
+            series=self.series,
             f0=self.f0,
             f1=self.f1,
         ).parameters()
-
-    def skf(self) -> SkfBearing:
-        """Return the bearing for `skf_torque`."""
-        R1, S1 = SERIES.get(self.series, OTHER_SERIES)
-        return SkfBearing(
-            float(self.bore_diameter), float(self.outside_diameter), R1, S1, self.axial_factor
-        )
 
     def parameters(self) -> LossParameters:
         """Return the floats for `physical_loss`, of one row."""

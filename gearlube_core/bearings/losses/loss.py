@@ -170,7 +170,7 @@ def bearing_loss(
     factor = UNCALIBRATED[model.law]
     nan = math.nan
     if model.law == "skf":
-        rolling, sliding = skf_torque(geometry.skf(), speed, F_a, F_r, state.nu)
+        rolling, sliding = skf_torque(speed, F_a, F_r, state.nu, geometry.dry_rollers())
         parts = {"rolling": rows * rolling, "sliding": rows * sliding}
         return _sum(parts, speed, factor, (nan, nan, nan, 0.0))
     if model.law == "palmgren":
