@@ -239,7 +239,7 @@ def main() -> None:
     )
     page.rows("2 MPa, formula over solved", range_rows(cases))
     put_outside(page, cases["solved, 2 MPa"])
-    page.rows("| 20 km/h", road_rows(road))
+    page.rows("| 20 km/h |", road_rows(road))
     page.rows("2 MPa | 0 K/W", bulk_rows())
     page.write()
 

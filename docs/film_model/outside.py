@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from docs.film_model.outside_solves import Outside, outside_solves
+from docs.film_model.outside_solves import OILS, Outside, constant_stress, outside_solves
 from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HYPOID_FLANK
@@ -39,9 +39,9 @@ _SMOOTH = 1e-8  # m, of flanks without asperities in touch
 
 def contacts() -> list[FilmContact]:
     """Return contacts of the axle that lie outside, in the order of their draw."""
-    plan = FilmPlan()
-    oils = [read_oil(name).lubricant for name in plan.oils]
-    drawn = axle_contacts(DRAWS, SEED, shipped_mesh_table(plan.mesh_table), oils, ANYWHERE)
+    oils = [read_oil(name).lubricant for name in OILS]
+    mesh = shipped_mesh_table(FilmPlan().mesh_table)
+    drawn = [constant_stress(one) for one in axle_contacts(DRAWS, SEED, mesh, oils, ANYWHERE)]
     numbers = MODEL.copied_numbers()
     found = [one for one in drawn if solved_film(numbers, one).outside > 0.0]
     return found[:SOLVES]

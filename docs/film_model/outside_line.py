@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from docs.film_model.outside_solves import Outside, outside_solves
+from docs.film_model.outside_solves import OILS, Outside, constant_stress, outside_solves
 from docs.page import Page
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.kinds import HELICAL_LINE
@@ -67,8 +67,9 @@ def formula_film(contact: LineContact) -> float:
 def contacts() -> list[LineContact]:
     """Return contacts of the pairs well outside, in the order of their draw."""
     plan = FilmPlan(contact=HELICAL_LINE.name)
-    oils = [read_oil(name).lubricant for name in plan.oils]
-    drawn = HELICAL_LINE.visits(DRAWS, SEED, plan.pairs, oils, ANYWHERE)
+    oils = [read_oil(name).lubricant for name in OILS]
+    visited = HELICAL_LINE.visits(DRAWS, SEED, plan.pairs, oils, ANYWHERE)
+    drawn = [constant_stress(one) for one in visited]
     numbers = FilmModel.named(MODEL).copied_numbers()
     return [one for one in drawn if solved_line(numbers, one).outside >= 1.0][:SOLVES]
 

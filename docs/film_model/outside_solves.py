@@ -8,11 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlube.studies.film_model.kinds import ContactKind
+from gearlube.studies.film_model.kinds import Contact, ContactKind
 from gearlube.studies.film_model.plan import FilmTask
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, failed_row, row_key, solve_task
 from gearlube_core.arrays import Array
 from gearlube_core.errors import GearLubeError
+
+OILS = ("mohammadpour_2015", "karagiannis_2012")  # of the papers, by Roelands' law
 
 
 class Outside(NamedTuple):
@@ -49,6 +51,11 @@ class Outside(NamedTuple):
             [name, *(f"{one[some].sum()} of {one[some].size}" for some in (above, ~above))]
             for name, one in bounds.items()
         ]
+
+
+def constant_stress(contact: Contact) -> Contact:
+    """Return a contact without a local Eyring stress, as the formulas take its oil."""
+    return contact._replace(eyring_slope=0.0)
 
 
 def outside_solves(table: Path, kind: ContactKind, contacts: Sequence[tuple]) -> list[SolveRow]:

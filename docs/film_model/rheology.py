@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from docs.film_model.compare import axle_of, found
+from docs.film_model.outside_solves import OILS
 from docs.page import IMAGES, Page
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.plotting.style import (
@@ -96,7 +97,7 @@ def frictions(oil_name: str) -> tuple[Array, Array, Array]:
         )
         geometry = contact_geometry(c.R_x, c.R_y, c.entrainment_angle, solid.contact_modulus)
         flank = law.flank_state(c.load, c.entrainment_speed, c.sliding_speed, geometry, state)
-        film = solved_film(numbers, c._replace(tau0=1e6 * stress))
+        film = solved_film(numbers, c._replace(tau0=1e6 * stress, eyring_slope=0.0))
         return film.friction_coefficient, flank.viscous_friction / c.load
 
     found = np.array([[both(c, stress) for c in contacts] for stress in STRESSES])
@@ -178,7 +179,7 @@ def figure(made: Efficiency, by_oil: dict[str, tuple[Array, Array, Array]]) -> A
 def main() -> None:
     """Compute all and write it."""
     made = efficiencies()
-    by_oil = {name: frictions(name) for name in FilmPlan().oils}
+    by_oil = {name: frictions(name) for name in OILS}
     figure(made, by_oil).savefig(FIGURE)
     page = Page("film_model_axle")
     page.rows("efficiency of the mesh [%], 95 °C", efficiency_rows(made))

@@ -121,7 +121,7 @@ def _contact(flank: HypoidFlank, at: float) -> FilmContact:
         np.array(now.sliding),
         oil,
         flank.oil.temperature,
-        oil.eyring_stress,
+        (oil.eyring_stress, 0.0),
     )
 
 

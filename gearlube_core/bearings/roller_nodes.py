@@ -21,14 +21,13 @@ from gearlube_core.bearings.bearing_type import (
 from gearlube_core.bearings.losses.race_rolling import (
     FORMULA_FORCE_BOUND,
     FORMULA_RACE_FILM_BOUND,
-    roller_inlet,
     solved_race,
 )
 from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.raceway_drag import line_radii, steady_load, steady_rollers
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model import net
-from gearlube_core.film_model.groups import FilmInlet
+from gearlube_core.film_model.groups import FilmInlet, model_inlet
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -177,7 +176,7 @@ def races_of(oil: LubricantState, p: BearingParameters) -> Races:
     """Return what the rollers of a shaft share."""
     solid = SolidParameters(0.5 * p.reduced_modulus, p.conductivity, p.density, p.heat_capacity)
     R_inner, R_outer = line_radii(p)
-    return Races(R_inner, R_outer, solid, oil, roller_inlet(oil, solid))
+    return Races(R_inner, R_outer, solid, oil, model_inlet(oil, solid, 0.0))
 
 
 @kernel

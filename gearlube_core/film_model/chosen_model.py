@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from gearlube_core.contact.solid import Solid, solid_parameters
+from gearlube_core.contact.solid import Solid, SolidParameters, solid_parameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.film_model.groups import FilmInlet, film_inlet
+from gearlube_core.film_model.groups import FilmGroups, model_inlet
+from gearlube_core.film_model.line_contact import line_groups_at, line_place
 from gearlube_core.film_model.model import FLANK, LINE, ROLLER, FilmModel, model_names
 from gearlube_core.film_model.solved_film import MODULUS_MARGIN
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA
 from gearlube_core.units import kelvin_to_celsius
 
 _TEMPERATURES = 31  # at which an oil is compared with the domain
@@ -23,20 +23,20 @@ _CONTACTS = {FLANK: "hypoid flanks", LINE: "helical lines", ROLLER: "rollers on 
 
 
 class _OilGroup(NamedTuple):
-    """A group of `FilmGroups` that oil and steel alone decide, in plain numbers."""
+    """A group of `FilmGroups` that oil and steel alone decide at a pressure, in plain numbers."""
 
     group: str
     words: str
     unit: str
-    plain: Callable[[float, FilmInlet, Any], float]  # of a group's value
+    plain: Callable[[float, float, SolidParameters], float]  # of a group's value and a temperature
 
 
 _OIL_GROUPS = (
-    _OilGroup("viscosity", "viscosity", "Pa.s", lambda g, *_: ROELANDS_KAPPA * math.exp(g)),
-    _OilGroup("exponent", "Z of Roelands", "", lambda g, *_: math.exp(g)),
-    _OilGroup("cooling", "S0 of Houpert", "", lambda g, *_: math.exp(g)),
+    _OilGroup("warmth", "-d ln(viscosity)/dT", "1/K", lambda g, T, _: math.exp(g) / T),
+    _OilGroup("shape", "ln(eta/eta0) at 0.5 GPa over alpha p", "", lambda g, *_: math.exp(g)),
+    _OilGroup("cooling", "d ln(eta)/dT at 0.5 GPa over 0", "", lambda g, *_: math.exp(g)),
     _OilGroup(
-        "stress", "Eyring stress", "MPa", lambda g, i, _: 1e-6 * math.exp(g) * i.contact_modulus
+        "stress", "Eyring stress", "MPa", lambda g, _, s: 1e-6 * math.exp(g) * s.contact_modulus
     ),
     _OilGroup(
         "conductivity", "conductivity", "W/(m.K)", lambda g, _, s: math.exp(g) * s.conductivity
@@ -48,6 +48,7 @@ _OIL_GROUPS = (
         lambda g, _, s: 1e-6 * math.exp(g) * s.density * s.heat_capacity,
     ),
 )
+_PRESSURE = 5e8  # Pa, at which an oil is compared
 
 
 def file_of_model(text: str, folder: Path = Path()) -> Path | None:
@@ -85,7 +86,7 @@ def chosen_model(text: str, kind: str, what: str, folder: Path = Path()) -> Film
     Examples
     --------
     >>> chosen_model("roller_race", "roller", "roller_model").checksum
-    '84de052a40a78b22'
+    'dda85656d17e747d'
     """
     path = file_of_model(text, folder)
     return of_kind(FilmModel.named(text) if path is None else FilmModel.read(path), kind, what)
@@ -128,9 +129,9 @@ def check_oil(model: FilmModel, oil: Lubricant, solid: Solid, what: str) -> None
 
     Notes
     -----
-    Compared are the groups that oil and solid alone decide: viscosity, Z of Roelands, S0 of
-    Houpert, Eyring stress, conductivity and heat capacity. Speed, load and temperature of a run
-    come on top; the share outside tells of them.
+    Compared are the groups that oil and solid alone decide at 0.5 GPa: shape and fall with
+    temperature of the viscosity, Eyring stress, conductivity and heat capacity. Speed, load and
+    temperature of a run come on top; the share outside says how far they are covered.
     """
     misfits = _misfits(model, oil, solid)
     if misfits:
@@ -145,8 +146,10 @@ def check_oil(model: FilmModel, oil: Lubricant, solid: Solid, what: str) -> None
 
 def _misfits(model: FilmModel, oil: Lubricant, solid: Solid) -> list[str]:
     """Return what keeps the model from saying anything, in words; empty where it does."""
-    if oil.own_laws():
-        return [f"{law.kind.what} {law.name} (model: roelands, eyring)" for law in oil.laws]
+    other = oil.shear_law is not None and oil.shear_law.name != "eyring"
+    if other or oil.own_laws():
+        known = "(model: roelands or modulus, eyring)"
+        return [f"{law.kind.what} {law.name} {known}" for law in oil.laws]
     of_solid = solid_parameters(solid, solid)
     modulus = of_solid.contact_modulus
     if abs(modulus / model.contact_modulus - 1.0) >= MODULUS_MARGIN:
@@ -154,11 +157,9 @@ def _misfits(model: FilmModel, oil: Lubricant, solid: Solid) -> list[str]:
             f"contact modulus E* {1e-9 * modulus:.4g} GPa (model: "
             f"{1e-9 * model.contact_modulus:.4g} GPa)"
         ]
-    inlets = [
-        _inlet_of(oil, float(T), of_solid)
-        for T in np.linspace(oil.temperature_low, oil.temperature_high, _TEMPERATURES)
-    ]
-    numbers = np.array([[getattr(i, one.group) for one in _OIL_GROUPS] for i in inlets])
+    temperatures = np.linspace(oil.temperature_low, oil.temperature_high, _TEMPERATURES)
+    groups = [_groups_of(oil, float(T), of_solid) for T in temperatures]
+    numbers = np.array([[getattr(one, of.group) for of in _OIL_GROUPS] for one in groups])
     low, high = (np.array([model.domain[one.group][n] for one in _OIL_GROUPS]) for n in (0, 1))
     border = model.blocks["border"][0] * (high - low)
     beyond = (numbers <= low - border) | (numbers >= high + border)
@@ -168,8 +169,11 @@ def _misfits(model: FilmModel, oil: Lubricant, solid: Solid) -> list[str]:
     found = []
     for n, one in enumerate(_OIL_GROUPS):
         if always[n] or (beyond[:, n].any() and not always.any()):
-            plain = [one.plain(g, i, of_solid) for g, i in zip(numbers[:, n], inlets, strict=True)]
-            ends = [one.plain(end, inlets[0], of_solid) for end in (low[n], high[n])]
+            at = list(zip(numbers[:, n], temperatures, strict=True))
+            plain = [one.plain(float(g), float(T), of_solid) for g, T in at]
+            ends = [
+                one.plain(float(end), float(temperatures[0]), of_solid) for end in (low[n], high[n])
+            ]
             unit = f" {one.unit}" if one.unit else ""
             found.append(
                 f"{one.words} {_span(plain)}{unit} from "
@@ -184,20 +188,9 @@ def _span(values: list[float]) -> str:
     return low if low == high else f"{low} to {high}"
 
 
-def _inlet_of(oil: Lubricant, temperature: float, solid: Any) -> FilmInlet:
-    state = oil.state(temperature)
-    inlet: FilmInlet = film_inlet(
-        solid.contact_modulus,
-        state.eta0,
-        state.slope,
-        state.beta,
-        state.tau0,
-        0.0,
-        0.0,
-        temperature,
-        state.conductivity,
-        state.volume_heat,
-        solid.conductivity,
-        solid.density * solid.heat_capacity,
-    )
-    return inlet
+def _groups_of(oil: Lubricant, temperature: float, solid: SolidParameters) -> FilmGroups:
+    """Return the groups of an oil between solids in any line contact of 0.5 GPa."""
+    place = line_place(1e-2, solid.conductivity, solid.density * solid.heat_capacity)
+    inlet = model_inlet(oil.state(temperature), solid, 0.0)
+    groups: FilmGroups = line_groups_at(1e-6, 1e5, _PRESSURE, 1.0, 0.0, place, inlet)
+    return groups

@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from gearlube_core.contact.hertz import ellipticity, hertz_coefficients
 from gearlube_core.film.point_film import central_film_thickness, film_geometry
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA, ROELANDS_PRESSURE
+from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA, ROELANDS_PRESSURE
 
 LEAST_LOAD = 1e-3  # N, film and pressure of an unloaded contact are those at this load
 LEAST_SPEED = 1e-6  # m/s, the same of a resting one
+THIN = 2.0 / 3.0  # the inlet's length goes with the film to this power
 _TINY = 1e-300  # m/s, of sliding
 _STEEPEST = 1e-3  # least cos(psi)
+_LAGUERRE = np.stack(np.polynomial.laguerre.laggauss(10), axis=1)  # points and weights
 
 
 class FilmContact(NamedTuple):
@@ -33,9 +37,9 @@ class FilmContact(NamedTuple):
     sliding_speed: float  # [m/s]
     sliding_angle: float  # from entrainment, positive away from the minor axis [rad]
     eta0: float  # viscosity at ambient pressure [Pa s]
-    alpha: float  # pressure-viscosity coefficient [1/Pa]
+    alpha: float  # slope of ln eta at ambient pressure by Roelands [1/Pa]; idle with a modulus
     beta: float  # -d ln eta0/dT [1/K]
-    tau0: float  # Eyring stress [Pa]
+    tau0: float  # Eyring stress [Pa]; idle with an Eyring slope
     limiting_stress: float  # of the oil at ambient pressure [Pa]; with the slope 0: none
     limiting_slope: float  # its slope with pressure [-]
     temperature: float  # of oil and solids at the inlet [K]
@@ -43,6 +47,11 @@ class FilmContact(NamedTuple):
     heat_capacity: float  # of the oil by volume, density times specific [J/(m3 K)]
     solid_conductivity: float  # [W/(m K)]
     solid_heat_capacity: float  # by volume [J/(m3 K)]
+    modulus: float = 0.0  # A of the pressure factor at the inlet [Pa]; 0: Roelands and Houpert
+    modulus_slope: float = 0.0  # B [-]
+    modulus_turn: float = 0.0  # dA/dT [Pa/K]
+    slope_turn: float = 0.0  # dB/dT [1/K]
+    eyring_slope: float = 0.0  # Lambda [-]; 0: the constant tau0 without a limit
 
 
 class FilmGroups(NamedTuple):
@@ -53,17 +62,18 @@ class FilmGroups(NamedTuple):
     psi: float  # entrainment from the minor axis [rad]
     slide_roll: float  # ln(sliding/entrainment)
     delta: float  # sliding from entrainment [rad], -pi/2 to pi/2
-    viscosity: float  # ln(eta0/kappa), kappa of Roelands
-    exponent: float  # ln Z of Roelands
-    stress: float  # ln(tau0/E*)
-    rate: float  # ln(kappa u/(E* R_x))
+    sharpness: float  # ln(alpha p_mean) - 2/3 thickness: growth of viscosity along the inlet
+    shape: float  # ln[ln(eta/eta0)/(alpha p)] at p_mean
+    stress: float  # ln(Eyring stress/E*) at p_mean
+    limited: float  # 1 with the local Eyring stress and its limit, 0 with a constant one
+    rate: float  # ln[eta0 u/(E* R_x)]
     peclet: float  # ln(u R_x rho c/k) of the solids
-    cooling: float  # ln S0 of Houpert
-    warmth: float  # ln[E*/(rho c (T0 - 138))], rho c of the solids
+    cooling: float  # ln of -d ln eta/dT at p_mean over that at ambient pressure
+    warmth: float  # ln(beta T0)
     conductivity: float  # ln(k oil/k solids)
     capacity: float  # ln(rho c oil/rho c solids)
     heat: float  # ln(beta eta0 u^2/k) of the oil
-    thickness: float  # [h R_x/a_x^2]^(1/2): reference film over what the solids flatten
+    thickness: float  # ln(h R_x/a_x^2)/2: reference film over what the solids flatten
 
 
 N_GROUPS = len(FilmGroups._fields)
@@ -151,7 +161,7 @@ class FilmPlace(NamedTuple):
     delta: float  # sliding from entrainment, -pi/2 to pi/2 [rad]
     ellipticity: float  # a_y/a_x
     ellipse: float  # ln(a_y/a_x)
-    rate: float  # ln[kappa/(E* R_x)], u in m/s
+    log_R: float  # ln R_x, R_x in m
     peclet: float  # ln(R_x rho c/k) of the solids, u in m/s
 
 
@@ -160,22 +170,33 @@ class FilmInlet(NamedTuple):
 
     contact_modulus: float  # E* [Pa]
     eta0: float  # [Pa s]
-    alpha: float  # [1/Pa]
+    alpha: float  # of films [1/Pa]
     beta: float  # [1/K]
-    tau0: float  # [Pa]
+    tau0: float  # Eyring stress [Pa]; idle with an Eyring slope
+    eyring_slope: float  # as of the contact, and so on
     limiting_stress: float  # [Pa]
     limiting_slope: float  # [-]
     oil_conductivity: float  # [W/(m K)]
     effusivity: float  # (k rho c)^(1/2) of the solids [W s^(1/2)/(m2 K)]
+    log_ratio: float  # ln(eta0/kappa), kappa of Roelands
     Z: float  # of Roelands
-    viscosity: float  # as in `FilmGroups`, and so on
-    exponent: float
-    stress: float
-    cooling: float
-    warmth: float
+    modulus: float
+    modulus_slope: float
+    modulus_turn: float
+    slope_turn: float
+    warmth: float  # as in `FilmGroups`, and so on
     conductivity: float
     capacity: float
+    rate: float  # ln(eta0/E*), u and R_x in m/s and m
     heat: float  # ln(beta eta0/k), u in m/s
+
+
+class PressedOil(NamedTuple):
+    """An oil under pressure at the inlet's temperature."""
+
+    log_ratio: float  # ln(eta/eta0) [-]
+    decline: float  # -d ln eta/dT [1/K]
+    stress: float  # Eyring stress [Pa]
 
 
 @kernel
@@ -186,7 +207,6 @@ def film_place(
     delta: float,
     ellipticity: float,
     pressure_coefficient: float,
-    contact_modulus: float,
     solid_conductivity: float,
     solid_heat_capacity: float,
 ) -> FilmPlace:
@@ -203,57 +223,125 @@ def film_place(
         delta - math.pi * math.floor(delta / math.pi + 0.5),
         ellipticity,
         math.log(ellipticity),
-        math.log(ROELANDS_KAPPA / (contact_modulus * R_x)),
+        math.log(R_x),
         math.log(R_x * solid_heat_capacity / solid_conductivity),
     )
 
 
 @kernel
-def film_inlet(
-    contact_modulus: float,
-    eta0: float,
-    alpha: float,
+def _pressed(
+    p: float,
+    log_ratio: float,
     beta: float,
-    tau0: float,
-    limiting_stress: float,
-    limiting_slope: float,
-    temperature: float,
-    conductivity: float,
-    heat_capacity: float,
-    solid_conductivity: float,
-    solid_heat_capacity: float,
-) -> FilmInlet:
-    """Return the numbers of oil and solids; arguments as the fields of `FilmContact`.
+    Z: float,
+    factor: tuple[float, float, float, float],
+) -> tuple[float, float]:
+    A, B, A_turn, B_turn = factor
+    if A > 0.0:
+        below = A + B * p
+        return p / below, beta + p * (A_turn + B_turn * p) / (below * below)
+    growth = math.exp(Z * math.log(1.0 + ROELANDS_PRESSURE * p))
+    return log_ratio * (growth - 1.0), beta * growth
 
-    ln(eta/kappa) = ln(eta0/kappa) (1 + 5.1e-9 p)^Z [(T - 138)/(T0 - 138)]^(-S0),
-    Z = alpha/[5.1e-9 ln(eta0/kappa)],  S0 = beta (T0 - 138)/ln(eta0/kappa)
+
+@kernel
+def oil_under(p: float, inlet: FilmInlet) -> PressedOil:
+    """Return the oil of an inlet under a pressure [Pa].
+
+    ln(eta/eta0) = p/(A + B p), or ln(eta0/kappa) [(1 + 5.1e-9 p)^Z - 1] without A;
+    Eyring stress 2 Lambda p/ln(eta/eta0), or the constant tau0 without Lambda
 
     Notes
     -----
-    Source of the law: [roelands_1966]; [houpert_1985].
+    Source of the laws: [arana_2019 (30)]
+    [roelands_1966] [houpert_1985]; of the stress: [bair_winer_1990].
     """
-    ratio = math.log(eta0 / ROELANDS_KAPPA)
-    Z = alpha / (ROELANDS_PRESSURE * ratio)
-    above = temperature - GLASS_TEMPERATURE
+    factor = inlet.modulus, inlet.modulus_slope, inlet.modulus_turn, inlet.slope_turn
+    ratio, decline = _pressed(p, inlet.log_ratio, inlet.beta, inlet.Z, factor)
+    stress = inlet.tau0
+    if inlet.eyring_slope > 0.0:
+        stress = 2.0 * inlet.eyring_slope * p / ratio
+    return PressedOil(ratio, decline, stress)
+
+
+@kernel
+def film_inlet(
+    oil: Any,
+    contact_modulus: float,
+    slope: float,
+    solid: tuple[float, float],
+    volume_heat: float,
+    limiting_stress: float,
+    limiting_slope: float,
+) -> FilmInlet:
+    """Return the numbers of oil and solids.
+
+    alpha = [integral of eta0/eta over p]^-1
+
+    Parameters
+    ----------
+    oil
+        `LubricantState` or a contact.
+    contact_modulus
+        E* [Pa].
+    slope
+        Of ln eta at ambient pressure by Roelands [1/Pa]; idle with a modulus.
+    solid
+        Conductivity [W/(m K)], heat capacity by volume [J/(m3 K)].
+    volume_heat
+        Heat capacity of the oil by volume [J/(m3 K)].
+    limiting_stress, limiting_slope
+        Of the oil at ambient pressure [Pa], and its slope with pressure [-].
+
+    Notes
+    -----
+    The integral by ten points of Gauss and Laguerre: within 1e-3.
+    """
+    log_ratio = math.log(oil.eta0 / ROELANDS_KAPPA)
+    Z = slope / (ROELANDS_PRESSURE * log_ratio)
+    factor = oil.modulus, oil.modulus_slope, oil.modulus_turn, oil.slope_turn
+    steep = 1.0 / oil.modulus if oil.modulus > 0.0 else slope
+    thin = 0.0
+    for i in range(_LAGUERRE.shape[0]):
+        x = _LAGUERRE[i, 0]
+        thin += _LAGUERRE[i, 1] * math.exp(
+            x - _pressed(x / steep, log_ratio, oil.beta, Z, factor)[0]
+        )
+    alpha = steep / thin
     return FilmInlet(
         contact_modulus,
-        eta0,
+        oil.eta0,
         alpha,
-        beta,
-        tau0,
+        oil.beta,
+        oil.tau0,
+        oil.eyring_slope,
         limiting_stress,
         limiting_slope,
-        conductivity,
-        math.sqrt(solid_conductivity * solid_heat_capacity),
+        oil.conductivity,
+        math.sqrt(solid[0] * solid[1]),
+        log_ratio,
         Z,
-        ratio,
-        math.log(Z),
-        math.log(tau0 / contact_modulus),
-        math.log(beta * above / ratio),
-        math.log(contact_modulus / (solid_heat_capacity * above)),
-        math.log(conductivity / solid_conductivity),
-        math.log(heat_capacity / solid_heat_capacity),
-        math.log(beta * eta0 / conductivity),
+        oil.modulus,
+        oil.modulus_slope,
+        oil.modulus_turn,
+        oil.slope_turn,
+        math.log(oil.beta * oil.temperature),
+        math.log(oil.conductivity / solid[0]),
+        math.log(volume_heat / solid[1]),
+        math.log(oil.eta0 / contact_modulus),
+        math.log(oil.beta * oil.eta0 / oil.conductivity),
+    )
+
+
+@kernel
+def model_inlet(oil: Any, solid: Any, limiting_slope: float) -> FilmInlet:
+    """Return oil and solids as the film model takes them, from `LubricantState` and solid.
+
+    The limiting slope is that of the film's shear stress over pressure [-]; 0: none.
+    """
+    of_solid = solid.conductivity, solid.density * solid.heat_capacity
+    return film_inlet(
+        oil, solid.contact_modulus, oil.slope, of_solid, oil.volume_heat, 0.0, limiting_slope
     )
 
 
@@ -261,19 +349,15 @@ def film_inlet(
 def contact_inlet(contact: Any) -> FilmInlet:
     """Return the inlet of a contact: `FilmContact`, or another tuple with the same names."""
     c = contact
+    of_solid = c.solid_conductivity, c.solid_heat_capacity
     return film_inlet(
+        c,
         c.contact_modulus,
-        c.eta0,
         c.alpha,
-        c.beta,
-        c.tau0,
+        of_solid,
+        c.heat_capacity,
         c.limiting_stress,
         c.limiting_slope,
-        c.temperature,
-        c.conductivity,
-        c.heat_capacity,
-        c.solid_conductivity,
-        c.solid_heat_capacity,
     )
 
 
@@ -288,7 +372,6 @@ def contact_parts(contact: FilmContact) -> tuple[FilmPlace, FilmInlet]:
         c.sliding_angle,
         c.ellipticity,
         c.pressure_coefficient,
-        c.contact_modulus,
         c.solid_conductivity,
         c.solid_heat_capacity,
     )
@@ -296,10 +379,19 @@ def contact_parts(contact: FilmContact) -> tuple[FilmPlace, FilmInlet]:
 
 
 @kernel
+def inlet_cooling(speed: float, inlet: FilmInlet) -> float:
+    """Return the factor by which heat at the inlet thins a film, 3.94/(3.94 + Lt^0.62) [-].
+
+    Source: [murch_wilson_1975], as of `grubin_1949`.
+    """
+    return 3.94 / (3.94 + math.exp(0.62 * (inlet.heat + 2.0 * math.log(speed))))
+
+
+@kernel
 def reference_film(load: float, speed: float, place: FilmPlace, inlet: FilmInlet) -> float:
     """Return the central film that the model corrects [m].
 
-    Chittenden et al. 1985 at psi = 0 with the component u cos(psi)
+    Chittenden et al. 1985 at psi = 0 with the component u cos(psi), times `inlet_cooling`
 
     Parameters
     ----------
@@ -308,7 +400,7 @@ def reference_film(load: float, speed: float, place: FilmPlace, inlet: FilmInlet
     place, inlet
         From `film_place` and `film_inlet`.
     """
-    return central_film_thickness(
+    film = central_film_thickness(
         place.R_x,
         place.side_flow,
         inlet.eta0,
@@ -317,6 +409,7 @@ def reference_film(load: float, speed: float, place: FilmPlace, inlet: FilmInlet
         load,
         2.0 * inlet.contact_modulus,
     )
+    return film * inlet_cooling(speed, inlet)
 
 
 @kernel
@@ -349,29 +442,28 @@ def film_groups(
         Amounts of entrainment, above zero, and of sliding [m/s].
     place, inlet
         From `film_place` and `film_inlet`.
-
-    Notes
-    -----
-    With steel E* 5.1e-9 1/Pa is a constant; other solids are other films, see `FilmModel`.
     """
     log_speed = math.log(speed)
+    under = oil_under(p, inlet)
+    thickness = math.log(math.sqrt(film * place.R_x) / semi_minor_axis(load, p, place))
     return FilmGroups(
         math.log(p / inlet.contact_modulus),
         place.ellipse,
         place.psi,
         math.log(max(slip, _TINY)) - log_speed,
         place.delta,
-        inlet.viscosity,
-        inlet.exponent,
-        inlet.stress,
-        place.rate + log_speed,
+        math.log(inlet.alpha * p) - THIN * thickness,
+        math.log(under.log_ratio / (inlet.alpha * p)),
+        math.log(under.stress / inlet.contact_modulus),
+        1.0 if inlet.eyring_slope > 0.0 else 0.0,
+        inlet.rate + log_speed - place.log_R,
         place.peclet + log_speed,
-        inlet.cooling,
+        math.log(under.decline / inlet.beta),
         inlet.warmth,
         inlet.conductivity,
         inlet.capacity,
         inlet.heat + 2.0 * log_speed,
-        math.sqrt(film * place.R_x) / semi_minor_axis(load, p, place),
+        thickness,
     )
 
 

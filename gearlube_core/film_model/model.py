@@ -21,12 +21,9 @@ from gearlube_core.film_model.groups import FilmGroups
 from gearlube_core.storage.atomic_file import write_text
 
 FORMAT = "gearlube film model"
-VERSION = 1
+VERSION = 2
 FLANK, LINE, ROLLER = "flank", "line", "roller"  # kinds of contact
 SHIPPED = {FLANK: "hypoid_flank", LINE: "helical_line", ROLLER: "roller_race"}  # of each kind
-# what films of training that were cut at the border of their domain add to the bounds: largest
-# errors of the shipped models against films with oil beyond, of film and friction [-]
-_CUT_DOMAIN = {FLANK: (0.014, 0.106), LINE: (0.004, 0.08), ROLLER: (0.012, 0.115)}
 # Of the load outside the domain, with which a number still counts as one of solved films: formulas
 # lose up to four times as much, so that 5 % put in no more than the 20 % of laws among each other.
 MOST_OUTSIDE = 0.05
@@ -140,23 +137,6 @@ class FilmModel:
         return (
             f"{self.name} (checksum {self.checksum}), bounds {100.0 * self.film_bound:.2g} % of "
             f"the central film and {100.0 * self.friction_bound:.2g} % of {friction}"
-            f"{self.words_of_domain}"
-        )
-
-    @property
-    def domain_bounds(self) -> tuple[float, float]:
-        """Return what the size of the solved domains adds to both bounds [-]."""
-        return (0.0, 0.0) if "oil_beyond" in self.provenance else _CUT_DOMAIN[self.kind]
-
-    @property
-    def words_of_domain(self) -> str:
-        """Return what the size of the solved domains adds to the bounds, with a semicolon."""
-        film, friction = (100.0 * one for one in self.domain_bounds)
-        if not film:
-            return ""
-        return (
-            f"; up to {film:.2g} % and {friction:.2g} % more, as its films were solved without "
-            "oil beyond their grid"
         )
 
     def __repr__(self) -> str:

@@ -11,11 +11,17 @@ import math
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.film_model.groups import N_GROUPS, FilmGroups
+from gearlube_core.film_model.groups import N_GROUPS, THIN, FilmGroups
 from gearlube_core.kernels.jit import kernel
 
 WIDTH = 24  # units of a hidden layer
 N_OUTPUTS = 2
+
+_SHARPNESS, _RATE, _THICKNESS = (
+    FilmGroups._fields.index(name) for name in ("sharpness", "rate", "thickness")
+)
+_ROUNDING = 0.3  # of the sharpness about its end, over which corrections come to rest
+_OVER_RATE = 0.345  # of the thickness over the rate: films grow with the power 0.69 of speed
 
 # places in the array of numbers
 LOW = 0  # domain of each group
@@ -64,17 +70,30 @@ def take_groups(numbers: Array, g: FilmGroups) -> None:
     numbers[SCRATCH + 2] = g.psi
     numbers[SCRATCH + 3] = g.slide_roll
     numbers[SCRATCH + 4] = g.delta
-    numbers[SCRATCH + 5] = g.viscosity
-    numbers[SCRATCH + 6] = g.exponent
+    numbers[SCRATCH + 5] = g.sharpness
+    numbers[SCRATCH + 6] = g.shape
     numbers[SCRATCH + 7] = g.stress
-    numbers[SCRATCH + 8] = g.rate
-    numbers[SCRATCH + 9] = g.peclet
-    numbers[SCRATCH + 10] = g.cooling
-    numbers[SCRATCH + 11] = g.warmth
-    numbers[SCRATCH + 12] = g.conductivity
-    numbers[SCRATCH + 13] = g.capacity
-    numbers[SCRATCH + 14] = g.heat
-    numbers[SCRATCH + 15] = g.thickness
+    numbers[SCRATCH + 8] = g.limited
+    numbers[SCRATCH + 9] = g.rate
+    numbers[SCRATCH + 10] = g.peclet
+    numbers[SCRATCH + 11] = g.cooling
+    numbers[SCRATCH + 12] = g.warmth
+    numbers[SCRATCH + 13] = g.conductivity
+    numbers[SCRATCH + 14] = g.capacity
+    numbers[SCRATCH + 15] = g.heat
+    numbers[SCRATCH + 16] = g.thickness
+
+
+@kernel
+def _thicken(numbers: Array) -> None:
+    # films thinner than the domain's: corrections of a film that is thick enough at the same
+    # pressure, with the viscosity that it takes; smooth once
+    beyond = numbers[SCRATCH + _SHARPNESS] - numbers[HIGH + _SHARPNESS] + 0.5 * _ROUNDING
+    if beyond > 0.0:
+        back = 0.5 * beyond * beyond / _ROUNDING if beyond < _ROUNDING else beyond - 0.5 * _ROUNDING
+        numbers[SCRATCH + _SHARPNESS] -= back
+        numbers[SCRATCH + _THICKNESS] += back / THIN
+        numbers[SCRATCH + _RATE] += back / THIN / _OVER_RATE
 
 
 @kernel
@@ -85,8 +104,10 @@ def share_outside(numbers: Array) -> float:
     ----------
     numbers : ndarray, shape (N_ARRAY,)
         Their scratch has the groups. Where a group lies beyond the border it is moved back to it:
-        nothing of the model is used there.
+        nothing of the model is used there. Thin films are inside: there the references hold but for
+        a factor, and the corrections are those of the thinnest films of the domain.
     """
+    _thicken(numbers)
     inside = 1.0
     for i in range(N_GROUPS):
         low, high = numbers[LOW + i], numbers[HIGH + i]

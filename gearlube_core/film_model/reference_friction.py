@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from gearlube_core.contact.hertz import LARGEST_OVER_MEAN
-from gearlube_core.film_model.groups import FilmInlet
+from gearlube_core.film_model.groups import FilmInlet, oil_under
 from gearlube_core.kernels.jit import kernel
-from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA, ROELANDS_PRESSURE
+from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA
 
 _LARGEST_OVER_MEAN = 1.5  # Hertz pressure
 # Gauss's three points of p/p_max over the ellipse, whose area is evenly spread over (p/p_max)^2
@@ -22,7 +22,7 @@ _STRIP = (
     (0.769234655052842, 0.239314335249683),
     (0.953089922969332, 0.118463442528095),
 )
-_WIDENING = 0.15
+_STRIP_WIDENING, _ELLIPSE_WIDENING = 0.15, 0.5  # of thick films, see the references
 _FILM_PART = 1.0 / 8.0  # middle of an evenly heated film over its surfaces
 _SURFACE_PART = 0.3665  # of both surfaces; the model corrects least with it
 _LOG_LARGE = 18.0  # asinh(exp(y)) = y + ln 2 to double precision above
@@ -55,23 +55,37 @@ def _heated_stress(log_rate: float, log_viscosity: float, softening: float) -> f
 
 
 @kernel
-def film_softening(film: float, speed: float, slip: float, half: float, inlet: FilmInlet) -> float:
-    """Return beta R slip tau0 [-] of a film; R of `reference_friction`, half across [m]."""
+def film_resistance(film: float, speed: float, half: float, inlet: FilmInlet) -> float:
+    """Return the film's rise over its heat flux [K m2/W], `reference_friction`; half across [m]."""
     resistance = film * _FILM_PART / inlet.oil_conductivity
-    resistance += _SURFACE_PART * math.sqrt(half / speed) / inlet.effusivity
-    return inlet.beta * slip * resistance * inlet.tau0
+    return resistance + _SURFACE_PART * math.sqrt(half / speed) / inlet.effusivity
 
 
 @kernel
-def stress_ratio(pressure: float, log_rate: float, softening: float, inlet: FilmInlet) -> float:
-    """Return the stress of a heated film over tau0 [-] at 5.1e-9 1/Pa times its pressure."""
-    growth = math.exp(inlet.Z * math.log(1.0 + pressure))
-    return _heated_stress(log_rate, inlet.viscosity * growth, softening * growth)
+def stress_under(p: float, film: float, slip: float, resistance: float, inlet: FilmInlet) -> float:
+    """Return the stress of a heated film under a pressure [Pa]; resistance of `film_resistance`."""
+    oil = oil_under(p, inlet)
+    log_rate = math.log(max(slip, 1e-300) * ROELANDS_KAPPA / (film * oil.stress))
+    softening = oil.decline * slip * resistance * oil.stress
+    stress = oil.stress * _heated_stress(log_rate, inlet.log_ratio + oil.log_ratio, softening)
+    if inlet.eyring_slope > 0.0:
+        over = stress / (inlet.eyring_slope * p)
+        over *= over
+        over *= over
+        over *= over
+        stress /= math.sqrt(math.sqrt(math.sqrt(1.0 + over)))
+    return stress
 
 
 @kernel
 def reference_friction(
-    film: float, p: float, speed: float, slip: float, semi_axis: float, inlet: FilmInlet
+    film: float,
+    p: float,
+    speed: float,
+    slip: float,
+    semi_axis: float,
+    R_x: float,
+    inlet: FilmInlet,
 ) -> float:
     """Return the friction coefficient that the model corrects [-].
 
@@ -91,23 +105,28 @@ def reference_friction(
         Amount of sliding [m/s].
     semi_axis
         a_x, half of the way across the contact [m].
+    R_x
+        Relative radius across it [m].
     inlet
         Oil and solids.
 
     Notes
     -----
-    The mean is over the ellipse with Hertz's pressures p', by three points. G = ln(eta/kappa) at
-    p' and the inlet's temperature after Roelands; with heat it falls as Houpert's law with an
-    exponent S0 of one. R, the film's rise over the heat flux, is rough, and one Newton step ends
-    each stress: what the model corrects need only be smooth and near.
+    The mean is over the ellipse with Hertz's pressures p', by three points; thick films spread over
+    an area 1 + 0.5 (h R_x/a_x^2)^(3/2) times as large. G = ln(eta/kappa) and
+    beta at p' and the inlet's temperature; with heat G falls as Houpert's law with an exponent S0
+    of one. With an Eyring stress 2 Lambda p/ln(eta/eta0) the limit Lambda p is rounded. R, the
+    film's rise over the heat flux, is rough, and one Newton step ends each stress: what the model
+    corrects need only be smooth and near.
     """
-    top = ROELANDS_PRESSURE * _LARGEST_OVER_MEAN * p
-    softening = film_softening(film, speed, slip, semi_axis, inlet)
-    log_rate = math.log(max(slip, 1e-300) * ROELANDS_KAPPA / (film * inlet.tau0))
+    thickness = math.sqrt(film * R_x) / semi_axis
+    p /= 1.0 + _ELLIPSE_WIDENING * thickness**3
+    top = _LARGEST_OVER_MEAN * p
+    resistance = film_resistance(film, speed, semi_axis, inlet)
     mean = 0.0
     for q, weight in ((_LOW, _OUTER_WEIGHT), (_MIDDLE, _MIDDLE_WEIGHT), (_HIGH, _OUTER_WEIGHT)):
-        mean += weight * q * stress_ratio(q * top, log_rate, softening, inlet)
-    return inlet.tau0 / p * mean
+        mean += weight * q * stress_under(q * top, film, slip, resistance, inlet)
+    return mean / p
 
 
 @kernel
@@ -117,7 +136,7 @@ def line_reference_friction(
     """Return the friction coefficient of a line that the model corrects [-].
 
     As `reference_friction`, with the mean over a strip whose pressure is p_0 (1 - X^2)^(1/2) and
-    whose half width is b (1 + 0.15 h R/b^2)^(1/2)
+    whose half width is b [1 + 0.15 (h R/b^2)^(3/2)/(alpha p)^(1/2)]
 
     Parameters
     ----------
@@ -132,16 +151,16 @@ def line_reference_friction(
     -----
     Five points over half of the strip: a line passes through pure rolling, where the stress is
     linear and its mean depends on the peak of the viscosity. Three points are off by a quarter
-    there, five by a few per cent. Thick films carry over more than the dry width; 0.15 brings the
-    solved friction of light contacts nearest.
+    there, five by a few per cent. Thick films carry over more than the dry width; the widening
+    brings the solved friction of light contacts nearest.
     """
-    wider = math.sqrt(1.0 + _WIDENING * film * R / (half_width * half_width))
+    thickness = math.sqrt(film * R) / half_width
+    wider = 1.0 + _STRIP_WIDENING * thickness**3 / math.sqrt(inlet.alpha * p)
     p /= wider
-    top = ROELANDS_PRESSURE * LARGEST_OVER_MEAN * p
-    softening = film_softening(film, speed, slip, half_width * wider, inlet)
-    log_rate = math.log(max(slip, 1e-300) * ROELANDS_KAPPA / (film * inlet.tau0))
+    top = LARGEST_OVER_MEAN * p
+    resistance = film_resistance(film, speed, half_width * wider, inlet)
     mean = 0.0
     for X, weight in _STRIP:
         share = math.sqrt(1.0 - X * X)
-        mean += weight * stress_ratio(share * top, log_rate, softening, inlet)
-    return inlet.tau0 / p * mean
+        mean += weight * stress_under(share * top, film, slip, resistance, inlet)
+    return mean / p

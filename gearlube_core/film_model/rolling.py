@@ -12,7 +12,7 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
-from gearlube_core.film_model.groups import LEAST_SPEED, FilmGroups, FilmInlet
+from gearlube_core.film_model.groups import LEAST_SPEED, FilmGroups, FilmInlet, inlet_cooling
 from gearlube_core.film_model.line_contact import (
     LEAST_LINE_LOAD,
     LineContact,
@@ -38,14 +38,19 @@ class RollerContact(NamedTuple):
     R: float  # relative radius across the line [m]
     speed: float  # of rolling: mean surface speed [m/s]
     eta0: float  # viscosity at ambient pressure [Pa s]
-    alpha: float  # pressure-viscosity coefficient [1/Pa]
+    alpha: float  # slope of ln eta at ambient pressure by Roelands [1/Pa]; idle with a modulus
     beta: float  # -d ln eta0/dT [1/K]
-    tau0: float  # Eyring stress [Pa]
+    tau0: float  # Eyring stress [Pa]; idle with an Eyring slope
     temperature: float  # of oil and solids at the inlet [K]
     conductivity: float  # of the oil [W/(m K)]
-    heat_capacity: float  # of the oil by volume [J/(m3 K)]
+    heat_capacity: float  # of the oil by volume, density times specific [J/(m3 K)]
     solid_conductivity: float  # [W/(m K)]
     solid_heat_capacity: float  # by volume [J/(m3 K)]
+    modulus: float = 0.0  # A of the pressure factor at the inlet [Pa]; 0: Roelands and Houpert
+    modulus_slope: float = 0.0  # B [-]
+    modulus_turn: float = 0.0  # dA/dT [Pa/K]
+    slope_turn: float = 0.0  # dB/dT [1/K]
+    eyring_slope: float = 0.0  # Lambda [-]; 0: the constant tau0 without a limit
 
 
 @kernel
@@ -69,6 +74,11 @@ def rolling_line(contact: RollerContact) -> LineContact:
         c.heat_capacity,
         c.solid_conductivity,
         c.solid_heat_capacity,
+        c.modulus,
+        c.modulus_slope,
+        c.modulus_turn,
+        c.slope_turn,
+        c.eyring_slope,
     )
 
 
@@ -82,7 +92,7 @@ def rolling_groups(contact: RollerContact) -> FilmGroups:
 def reference_rolling_friction(line_load: float, speed: float, R: float, inlet: FilmInlet) -> float:
     """Return the coefficient of rolling friction that the model corrects [-].
 
-    mu = 2 F/w, F of `biboulet_houpert_force`, without heating
+    mu = 2 F/w, F of `biboulet_houpert_force` times `inlet_cooling`
 
     Parameters
     ----------
@@ -100,7 +110,7 @@ def reference_rolling_friction(line_load: float, speed: float, R: float, inlet: 
     """
     modulus = 2.0 * inlet.contact_modulus
     force, _ = biboulet_houpert_force(R, line_load, modulus, inlet.eta0, inlet.alpha, speed)
-    return 2.0 * force / line_load
+    return 2.0 * force / line_load * inlet_cooling(speed, inlet)
 
 
 @kernel
@@ -137,13 +147,13 @@ def solved_rolling_at(
     w = max(line_load, LEAST_LINE_LOAD)
     speed = max(speed, LEAST_SPEED)
     p = line_mean_pressure(w, place.R, inlet.contact_modulus)
-    film = line_reference_film(w, speed, place.R, inlet)
+    film = line_reference_film(w, speed, place.R, inlet) * inlet_cooling(speed, inlet)
     take_groups(numbers, line_groups_at(film, w, p, speed, 0.0, place, inlet))
     outside = share_outside(numbers)
     y_film, y_friction = net_outputs(numbers)
     film *= math.exp(y_film)
     friction = reference_rolling_friction(w, speed, place.R, inlet) * math.exp(y_friction)
-    return with_bounds(numbers, film, friction, p, outside, inlet)
+    return with_bounds(numbers, film, friction, p, 0.0, outside, inlet)
 
 
 @kernel

@@ -15,6 +15,7 @@ from gearlube_core.film_model.groups import (
     FilmPlace,
     contact_parts,
     film_groups,
+    inlet_cooling,
     reference_film,
     semi_minor_axis,
 )
@@ -34,13 +35,18 @@ from gearlube_core.film_model.net import (
     smooth_step,
     take_groups,
 )
-from gearlube_core.film_model.reference_friction import line_reference_friction, reference_friction
+from gearlube_core.film_model.reference_friction import (
+    film_resistance,
+    line_reference_friction,
+    reference_friction,
+)
 from gearlube_core.kernels.jit import kernel
 
 MODULUS_MARGIN = 0.02  # of E*, to the full share outside
 # share of the limiting stress that the mean stress may reach: where it begins to matter and where
 # the model, which has none, says nothing
 _LIMIT_BEGINS, _LIMIT_ENDS = 0.5, 0.8
+HOTTEST, _TOO_HOT = 150.0, 200.0  # K, the film's mean rise over the inlet, likewise
 
 
 class SolvedFilm(NamedTuple):
@@ -55,9 +61,15 @@ class SolvedFilm(NamedTuple):
 
 @kernel
 def with_bounds(
-    numbers: Array, film: float, friction: float, p: float, outside: float, inlet: FilmInlet
+    numbers: Array,
+    film: float,
+    friction: float,
+    p: float,
+    rise: float,
+    outside: float,
+    inlet: FilmInlet,
 ) -> SolvedFilm:
-    """Return film and friction with the share outside for solids and limiting stress as well.
+    """Return film and friction with the share outside for solids, heat and limiting stress as well.
 
     Parameters
     ----------
@@ -67,6 +79,8 @@ def with_bounds(
         By it [m], [-].
     p
         Mean Hertz pressure [Pa].
+    rise
+        Of the film over the inlet [K].
     outside
         Of `share_outside`.
     inlet
@@ -74,6 +88,7 @@ def with_bounds(
     """
     other = abs(inlet.contact_modulus / numbers[MODULUS] - 1.0) / MODULUS_MARGIN
     inside = (1.0 - outside) * (1.0 - smooth_step(other))
+    inside *= 1.0 - smooth_step((rise - HOTTEST) / (_TOO_HOT - HOTTEST))
     limit = inlet.limiting_stress + inlet.limiting_slope * p
     if limit > 0.0:
         reached = (friction * p / limit - _LIMIT_BEGINS) / (_LIMIT_ENDS - _LIMIT_BEGINS)
@@ -123,8 +138,11 @@ def solved_film_at(
     film *= math.exp(y_film)
     across = speed * place.cos_psi
     semi_axis = semi_minor_axis(load, p, place)
-    friction = reference_friction(film, p, across, slip, semi_axis, inlet) * math.exp(y_friction)
-    return with_bounds(numbers, film, friction, p, outside, inlet)
+    friction = reference_friction(film, p, across, slip, semi_axis, place.R_x, inlet) * math.exp(
+        y_friction
+    )
+    rise = friction * p * slip * film_resistance(film, across, semi_axis, inlet)
+    return with_bounds(numbers, film, friction, p, rise, outside, inlet)
 
 
 @kernel
@@ -168,14 +186,16 @@ def solved_line_at(
     w = max(line_load, LEAST_LINE_LOAD)
     speed = max(speed, LEAST_SPEED)
     p = line_mean_pressure(w, place.R, inlet.contact_modulus)
-    film = line_reference_film(w, speed, place.R, inlet)
+    film = line_reference_film(w, speed, place.R, inlet) * inlet_cooling(speed, inlet)
     take_groups(numbers, line_groups_at(film, w, p, speed, slip, place, inlet))
     outside = share_outside(numbers)
     y_film, y_friction = net_outputs(numbers)
     film *= math.exp(y_film)
-    friction = line_reference_friction(film, p, speed, slip, 0.5 * w / p, place.R, inlet)
+    half = 0.5 * w / p
+    friction = line_reference_friction(film, p, speed, slip, half, place.R, inlet)
     friction *= math.exp(y_friction)
-    return with_bounds(numbers, film, friction, p, outside, inlet)
+    rise = friction * p * slip * film_resistance(film, speed, half, inlet)
+    return with_bounds(numbers, film, friction, p, rise, outside, inlet)
 
 
 @kernel

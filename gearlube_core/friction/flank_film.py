@@ -10,7 +10,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model import net
-from gearlube_core.film_model.groups import FilmInlet, film_inlet, film_place
+from gearlube_core.film_model.groups import FilmInlet, film_place, model_inlet
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film_at
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState
@@ -22,7 +22,7 @@ from gearlube_core.oil.lubricant_state import LubricantState
 
 # behind the numbers of the model: the oil that the numbers behind it belong to, and these
 _OIL = net.N_ARRAY
-_OIL_FLOATS = 13  # of LubricantState, without its laws
+_OIL_FLOATS = len(LubricantState._fields) - 2  # without its laws
 _INLET = _OIL + _OIL_FLOATS + 1
 N_FLANK_MODEL = _INLET + count_floats(FilmInlet)
 _LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
@@ -64,30 +64,6 @@ def flank_film_model(model: FilmModel) -> Array:
     Kernels write into them: two gear pairs must not share them.
     """
     return np.concatenate([model.copied_numbers(), np.full(N_FLANK_MODEL - _OIL, np.nan)])
-
-
-@kernel
-def model_inlet(
-    lubricant: LubricantState, solid: SolidParameters, limiting_slope: float
-) -> FilmInlet:
-    """Return oil and solids as the film model takes them.
-
-    The limiting slope is that of the film's shear stress over pressure [-]; 0: none.
-    """
-    return film_inlet(
-        solid.contact_modulus,
-        lubricant.eta0,
-        lubricant.slope,
-        lubricant.beta,
-        lubricant.tau0,
-        0.0,
-        limiting_slope,
-        lubricant.temperature,
-        lubricant.conductivity,
-        lubricant.volume_heat,
-        solid.conductivity,
-        solid.density * solid.heat_capacity,
-    )
 
 
 @apart
@@ -150,7 +126,6 @@ def flank_model_film(
         ellipse.delta,
         ellipse.ellipticity,
         geometry.pressure_coefficient,
-        solid.contact_modulus,
         solid.conductivity,
         solid.density * solid.heat_capacity,
     )

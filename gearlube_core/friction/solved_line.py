@@ -8,12 +8,11 @@ from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.film_model.groups import FilmInlet
+from gearlube_core.film_model.groups import FilmInlet, model_inlet
 from gearlube_core.film_model.line_contact import line_place
 from gearlube_core.film_model.solved_film import SolvedFilm, solved_line_at
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance
 from gearlube_core.friction.flank_data import CONSISTENT
-from gearlube_core.friction.flank_film import model_inlet
 from gearlube_core.friction.line_points import (
     LINE_LOAD_FLOOR,
     STILL_AREA_OVER_WIDTH_SQUARED,
@@ -59,9 +58,7 @@ def line_film(
     inlet: FilmInlet,
 ) -> SolvedFilm:
     """Return what a film model gives at a point; arguments as in `solved_line_friction`."""
-    place = line_place(
-        R, solid.contact_modulus, solid.conductivity, solid.density * solid.heat_capacity
-    )
+    place = line_place(R, solid.conductivity, solid.density * solid.heat_capacity)
     return solved_line_at(
         film_model,
         max(line_load, LINE_LOAD_FLOOR),

@@ -6,7 +6,12 @@ from typing import Any, NamedTuple
 
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import FORMULA_LAWS, OilLaws, alpha_at, law_at, mean_slope
-from gearlube_core.oil.pressure_factor import PressureFactor, film_coefficient, modulus_at
+from gearlube_core.oil.pressure_factor import (
+    PressureFactor,
+    film_coefficient,
+    modulus_at,
+    slope_turn,
+)
 from gearlube_core.oil.roelands_1966 import pressure_viscosity_coefficient
 from gearlube_core.oil.walther_1931 import walther_viscosity
 
@@ -49,6 +54,8 @@ class LubricantState(NamedTuple):
     modulus: float = 0.0  # A of the pressure factor [Pa]; 0: the law of each formula
     modulus_slope: float = 0.0  # B [-]
     eyring_slope: float = 0.0  # Lambda of a local Eyring stress [-]; 0: tau0 at all pressures
+    modulus_turn: float = 0.0  # dA/dT [Pa/K]
+    slope_turn: float = 0.0  # dB/dT [1/K]
     viscosity: Any = FORMULA_LAWS.viscosity  # law over pressure, see `formula_laws`
     shear: Any = FORMULA_LAWS.shear  # law of shear, likewise
 
@@ -109,6 +116,8 @@ def lubricant_state(
         A,
         B,
         Lambda,
+        parameters.factor.a2,
+        slope_turn(parameters.factor, temperature, B),
         law,
         laws.shear,
     )

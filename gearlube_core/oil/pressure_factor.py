@@ -48,6 +48,12 @@ def modulus_at(factor: PressureFactor, temperature: float) -> tuple[float, float
 
 
 @kernel
+def slope_turn(factor: PressureFactor, temperature: float, B: float) -> float:
+    """Return dB/dT [1/K] at a temperature [K], where `modulus_at` gives B."""
+    return factor.b2 if factor.b1 + factor.b2 * temperature >= B else 0.0
+
+
+@kernel
 def film_coefficient(A: float, B: float) -> float:
     """Return [integral of exp[-p/(A + B p)] over p]^-1, the pressure coefficient of films [1/Pa].
 

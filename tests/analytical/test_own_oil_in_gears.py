@@ -225,7 +225,7 @@ def test_fmus_error_bars_and_film_models_know_the_law():
     assert found["share outside"] == 1.0
     solved, formula = found["films"]
     assert solved == formula
-    assert "viscosity law own_power (model: roelands, eyring)" in found["film model"]
+    assert "viscosity law own_power (model: roelands or modulus, eyring)" in found["film model"]
     slope, over_eta0, followed = found["refusals"]
     assert "by the viscosity law steeper must be alpha, 15 1/GPa at 313.15 K" in slope
     assert "got 30 1/GPa. Give the oil the alpha of the law" in slope

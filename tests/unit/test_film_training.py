@@ -54,10 +54,11 @@ def made_up(task: FilmTask) -> SolveRow:
     one = task.contact
     g = contact_groups(one)
     place, inlet = contact_parts(one)
-    error = 0.02 * (COARSE[0] - 1.0) ** 2 / (task.nodes[0] - 1.0) ** 2 * g.thickness
+    error = 0.02 * (COARSE[0] - 1.0) ** 2 / (task.nodes[0] - 1.0) ** 2 * math.exp(g.thickness)
     change = 0.1 * math.tanh(g.pressure + 5.5) - 0.05 * g.psi * g.delta
     film = reference(one.load, one.entrainment_speed, place, inlet) * math.exp(change + error)
-    friction = expected_friction(one, film) * math.exp(0.08 * math.sin(g.stress + g.heat))
+    wave = 0.08 * math.sin(0.3 * g.stress + 0.1 * g.heat)
+    friction = expected_friction(one, film) * math.exp(wave)
     return SolveRow(task, Solved(film, 0.8 * film, friction, 1e9, 10.0, 0.0, 1.0, 1.0), "")
 
 
@@ -90,17 +91,17 @@ def test_random_contacts_lie_in_the_domain_and_spread_over_the_box():
     found = box_contacts(HYPOID_BOX, 400, 3, random=True)
     pressures = [c.pressure_coefficient * c.load ** (1.0 / 3.0) for c in found]
     assert min(pressures) >= DOMAIN.least_pressure
-    assert max(contact_groups(c).thickness for c in found) <= DOMAIN.most_thickness
+    assert max(contact_groups(c).thickness for c in found) <= math.log(DOMAIN.most_thickness)
     psi = np.degrees([c.entrainment_angle for c in found])
-    # even over 28 to 67 deg: mean and deviation of 400 draws within 4 standard errors
-    assert psi.mean() == pytest.approx(47.5, abs=4 * 39 / math.sqrt(12 * 400))
-    assert psi.std() == pytest.approx(39 / math.sqrt(12), rel=0.15)
+    # even over 25 to 70 deg: mean and deviation of 400 draws within 4 standard errors
+    assert psi.mean() == pytest.approx(47.5, abs=4 * 45 / math.sqrt(12 * 400))
+    assert psi.std() == pytest.approx(45 / math.sqrt(12), rel=0.15)
 
 
 def test_the_box_widens_for_an_oil_beyond_it_and_only_there():
-    thin = Lubricant.named("jamali_2015")  # 3.6 mPa s at 120 degC
-    wide = widened(HYPOID_BOX, [thin])
-    assert wide["viscosity [Pa s]"][0] < 0.0036
+    oil = replace(Lubricant.named("jamali_2015"), conductivity=0.25)
+    wide = widened(HYPOID_BOX, [oil])
+    assert wide["conductivity [W/(m K)]"][1] > 0.25
     assert wide["Roelands Z"] == HYPOID_BOX["Roelands Z"]
     assert widened(HYPOID_BOX, [Lubricant.named("mohammadpour_2015")]) == HYPOID_BOX
 
@@ -251,8 +252,8 @@ def test_net_gradients_lead_to_a_net_that_agrees():
     rng = np.random.default_rng(1)
     x = rng.uniform(-1.0, 1.0, (150, len(contact_groups(SMALL.tasks()[0].contact))))
     y = np.stack([np.sin(x[:, 0] + x[:, 3]), x[:, 1] * x[:, 2]], axis=1)
-    # 1e-3 after ten steps; a wrong gradient stops within a few, far above
-    blocks = fit_net(x, y, np.ones_like(y), seed=1, steps=12)
+    # 1e-2 after twenty steps; a wrong gradient stops within a few, far above
+    blocks = fit_net(x, y, np.ones_like(y), seed=1, steps=25)
     assert np.abs(net_values(blocks, x) - y).max() < 0.05
 
 

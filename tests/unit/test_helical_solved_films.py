@@ -163,10 +163,8 @@ def test_the_gear_file_decides_where_nothing_is_given():
 
 
 def test_an_oil_without_a_model_and_an_unknown_film_are_refused_with_the_cure():
-    thick = Lubricant.named("mohammadpour_2015").with_two_viscosities(
-        2e-3, 313.15, 4e-4, 373.15, name="grease"
-    )
-    with pytest.raises(ParameterError, match=r"got grease at 80 degC.*or take film.model formula"):
-        settings(film_model="solved", oil=thick)
+    stiff = replace(Lubricant.named("mohammadpour_2015"), name="stiff", eyring_stress=1e8)
+    with pytest.raises(ParameterError, match=r"got stiff at 80 degC.*or take film.model formula"):
+        settings(film_model="solved", oil=stiff)
     with pytest.raises(ParameterError, match="film must be one of formula, solved; got 'thick'"):
         settings(film_model="thick")

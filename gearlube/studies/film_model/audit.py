@@ -92,7 +92,7 @@ def visited_contacts(
     axle: HypoidAxleParameters,
     count: int,
     seed: int,
-    tau0: float | None = None,
+    eyring: tuple[float, float] | None = None,
 ) -> list[FilmContact]:
     """Return contacts at random points and phases of the engagement.
 
@@ -104,8 +104,8 @@ def visited_contacts(
         Its mesh table and its oil.
     count, seed
         Number of contacts and what decides them.
-    tau0
-        Eyring stress [Pa]; None: that of the oil.
+    eyring
+        As of `oil_of_library`.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def visited_contacts(
                 contact.sliding[0] * speed,
                 axle.oil,
                 float(points.temperature[n]),
-                axle.oil.eyring_stress if tau0 is None else tau0,
+                eyring,
             )
         )
         if len(found) == count:
@@ -160,8 +160,7 @@ class Audit(NamedTuple):
     rows: tuple[AuditRow, ...]
     outside: int  # contacts drawn that lie outside the domain, not solved
     outside_load: float  # their share of the load drawn [-]
-    bounds: tuple[float, float]  # of film and friction, what cut domains add included [-]
-    of_domain: tuple[float, float] = (0.0, 0.0)  # this part of them
+    bounds: tuple[float, float]  # of film and friction [-]
 
     @property
     def judged(self) -> list[AuditRow]:
@@ -232,9 +231,8 @@ def audit(
         progress(done / len(inside), "contacts solved")
     load = np.array([one[0] for one in contacts])  # load, or load per length of a line
     share = 1.0 - float(load[inside].sum() / load.sum())
-    domain = model.domain_bounds
-    bounds = (model.film_bound + domain[0], model.friction_bound + domain[1])
-    return Audit(tuple(rows), len(contacts) - len(inside), share, bounds, domain)
+    bounds = (model.film_bound, model.friction_bound)
+    return Audit(tuple(rows), len(contacts) - len(inside), share, bounds)
 
 
 def _row(contact: Contact, film: SolvedFilm) -> AuditRow:
@@ -275,11 +273,6 @@ def audit_lines(found: Audit) -> list[str]:
             f"above the bound of {100.0 * found.bounds[n]:.2f} %: {over[n]} "
             f"(5 % would be {0.05 * len(errors):.1f})"
         )
-        if found.of_domain[n]:
-            lines[-1] += (
-                f"; {100.0 * found.of_domain[n]:.2g} % of the bound are for the model's training "
-                "on films without oil beyond their grid"
-            )
     if found.holds:
         lines.append("The bounds hold: no more contacts exceed them than 5 % explain.")
     else:

@@ -42,7 +42,7 @@ def train(
         list[str] | None,
         typer.Option(
             help="Shipped oil or oil file (TOML) that the gears run in; may be given again. "
-            "Default: mohammadpour_2015 and karagiannis_2012.",
+            "Default: all shipped ones.",
             metavar="OIL",
         ),
     ] = None,
@@ -236,7 +236,7 @@ def audit(
             of_run,
             count,
             seed,
-            None if eyring_stress is None else 1e6 * eyring_stress,
+            None if eyring_stress is None else (1e6 * eyring_stress, 0.0),
         )
         with progress_on("audit") as progress:
             found = audits.audit(judged, contacts, progress=progress)

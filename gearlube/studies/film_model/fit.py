@@ -144,7 +144,7 @@ def fit_model(
         *kind.visits(visited, seeds[1], plan.machines, oils, kind.trained),
     ]
     groups = np.array([kind.groups(one) for one in drawn])
-    low, high = domain_of(box, groups, kind)
+    low, high = domain_of(groups, kind)
     points = np.vstack([groups, trained.groups])
     corrected = trained.values + _at(corrections, trained.groups)
     values = np.vstack([_at(processes, groups) + _at(corrections, groups), corrected])
@@ -187,16 +187,20 @@ def check_rows(rows: Sequence[SolveRow], kind: ContactKind) -> None:
         )
 
 
-def domain_of(box: Box, groups: Array, kind: ContactKind) -> tuple[Array, Array]:
-    """Return the lowest and highest value of each group in the domain."""
-    corners = [kind.groups(kind.box_contact(box, np.full(len(box), t))) for t in (0.0, 1.0)]
-    low, high = np.min(corners, axis=0), np.max(corners, axis=0)
-    # groups that follow from the others: down to what was met, up to their limit
+def domain_of(groups: Array, kind: ContactKind) -> tuple[Array, Array]:
+    """Return the lowest and highest value of each group in the domain, of those that were drawn."""
+    low, high = groups.min(axis=0), groups.max(axis=0)
+    # up to the limits of the domain, which the training goes beyond
     limits = kind.domain
-    for name, most in (("heat", math.log(limits.most_heat)), ("thickness", limits.most_thickness)):
+    for name, most in (
+        ("heat", math.log(limits.most_heat)),
+        ("thickness", math.log(limits.most_thickness)),
+        ("sharpness", limits.most_sharpness),
+    ):
         n = FilmGroups._fields.index(name)
-        least = groups[:, n].min()
-        low[n], high[n] = least - _BORDER * (most - least), most
+        high[n] = min(high[n], most)
+    sharpness = FilmGroups._fields.index("sharpness")
+    low[sharpness] = max(low[sharpness], limits.least_sharpness)
     low[0] += math.log(limits.least_pressure / kind.trained.least_pressure)
     # angles and ellipticity of a line are zero
     still = high - low < _LEAST_WIDTH
@@ -320,7 +324,8 @@ def _provenance_of(
         "kind": kind.name,
         "contact": kind.words,
         "physics": "steady thermal Eyring film, fully flooded, smooth, bulk at the oil's "
-        "temperature; Roelands and Houpert, Dowson and Higginson, no limiting stress; steel",
+        "temperature; ln(eta/eta0) = p/(A + B p) or Roelands and Houpert; constant or local Eyring "
+        "stress, the local one limited; Dowson and Higginson; steel",
         f"oils_of_the_{kind.visited}": list(plan.oils),
         **_machines(plan),
         "grid": f"{_grid(kind.nodes)} led to the limit by {second} films on {_grid(kind.second)}",

@@ -12,11 +12,11 @@ from scipy.linalg import cho_factor, cho_solve
 
 from gearlube_core.arrays import Array
 from gearlube_core.extras import extra_package
-from gearlube_core.film_model.groups import FilmGroups
+from gearlube_core.film_model.groups import THIN, FilmGroups
 from gearlube_core.film_model.net import N_GROUPS, N_OUTPUTS, WIDTH
 from gearlube_core.progress import Progress, no_progress
 
-_PULL = 1e-10  # of the squares of the weights, for each point
+_PULL = 1e-6  # of the squares of the weights, for each point
 _LEAST = 1e-6  # of the mean diagonal, that damps weights without effect
 _TRIES = 12  # of a step, each damped more
 _CHUNK = 2000  # points whose slopes are held at once
@@ -30,8 +30,6 @@ _SHAPES = {
     "last": (N_OUTPUTS, WIDTH),
     "last_offset": (N_OUTPUTS,),
 }
-# E* of steel over the pressure of Roelands' law; other solids are outside the domain
-_MODULUS_OVER_ROELANDS = 588.5
 _LENGTHS = (0.3, 300.0)  # limits, in standard deviations of a feature
 _ROUGH_LENGTHS = (0.7, 100.0)
 _NOISE = (1e-9, 0.1)  # limits of its variance over that of the values
@@ -251,24 +249,20 @@ def _lines(x: Array) -> Array:
 
 
 def _film_features(groups: Array) -> Array:
-    """Return inputs (n, 17) in which films vary simply, from groups (n, N_GROUPS).
+    """Return inputs (n, 19) in which films vary simply, from groups (n, N_GROUPS).
 
-    In order: thickness, material group as of Moes with u cos(psi), alpha p, tau0/p, ellipticity,
-    entrainment angle, slide-roll ratio, sliding angle, heating number of the oil, Z, S0, Peclet
-    number of the solids, conductivity and heat capacity ratio, viscosity, ln(eta(p)/eta0),
-    ln[eta0 slip/(h tau0)] up to a function of the ellipticity.
+    In order: thickness, material group as of Moes with u cos(psi), alpha p, stress/p, ellipticity,
+    entrainment angle, slide-roll ratio, sliding angle, heating number of the oil, shape of its law,
+    limited stress, cooling, warmth, Peclet number of the solids, conductivity ratio,
+    ln(eta(p)/eta0), ln[eta0 slip/(h tau)] up to a function of the ellipticity; heat capacity ratio,
+    and the thickness itself.
     """
     g = FilmGroups(*groups.T)
-    alpha = g.exponent + np.log(g.viscosity)  # ln(alpha over that of Roelands' pressure)
-    speed = g.rate + g.viscosity + np.log(np.cos(g.psi))  # ln(eta0 u cos(psi)/(E* R_x))
-    pressure = np.exp(g.pressure) * _MODULUS_OVER_ROELANDS
-    growth = g.viscosity * np.expm1(np.exp(g.exponent) * np.log1p(pressure))
-    slip = g.viscosity + g.rate + g.slide_roll - g.stress
-    shear = slip - 2.0 * (np.log(g.thickness) + g.pressure)
+    alpha = g.sharpness + THIN * g.thickness - g.pressure  # ln(alpha E*)
     return np.stack(
         [
             g.thickness,
-            alpha + 0.25 * speed,
+            alpha + 0.25 * (g.rate + np.log(np.cos(g.psi))),
             alpha + g.pressure,
             g.stress - g.pressure,
             g.ellipse,
@@ -276,14 +270,16 @@ def _film_features(groups: Array) -> Array:
             g.slide_roll,
             g.delta,
             g.heat,
-            g.exponent,
+            g.shape,
+            g.limited,
             g.cooling,
+            g.warmth,
             g.peclet,
             g.conductivity,
+            np.exp(alpha + g.pressure + g.shape),
+            g.rate + g.slide_roll - g.stress - 2.0 * (g.thickness + g.pressure),
             g.capacity,
-            g.viscosity,
-            growth,
-            shear,
+            np.exp(g.thickness),
         ],
         axis=1,
     )

@@ -25,6 +25,7 @@ from gearlube_core.film_model.groups import (
     FilmGroups,
     contact_groups,
     contact_parts,
+    inlet_cooling,
     reference_film,
     semi_minor_axis,
 )
@@ -47,8 +48,8 @@ from gearlube_core.film_model.solved_film import SolvedFilm, solved_film, solved
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.lubricant import Lubricant
 
-_TOLERANCE = 1e-7
-_HEAT = ThermalSettings(tolerance=3e-3, max_turns=80)
+_TOLERANCE = 1e-6
+_HEAT = ThermalSettings(tolerance=1e-2, max_turns=35)
 
 Contact = Any  # FilmContact or LineContact
 
@@ -82,7 +83,8 @@ class ContactKind:
     predict
         Film and friction by the numbers of a model.
     smooth
-        As of `fit_process`; lines in slow sliding hang on their pressure spikes.
+        As of `fit_process`; lines in slow sliding hang on their pressure spikes, thin ellipses on
+        the grid.
     """
 
     name: str
@@ -131,7 +133,7 @@ def _flank_friction(contact: FilmContact, film: float) -> float:
     p = place.pressure_coefficient * contact.load ** (1.0 / 3.0)
     across = contact.entrainment_speed * place.cos_psi
     semi_axis = semi_minor_axis(contact.load, p, place)
-    return reference_friction(film, p, across, contact.sliding_speed, semi_axis, inlet)
+    return reference_friction(film, p, across, contact.sliding_speed, semi_axis, contact.R_x, inlet)
 
 
 def _axle_contacts(
@@ -141,8 +143,9 @@ def _axle_contacts(
 
 
 def _line_film(contact: LineContact) -> float:
-    inlet = line_parts(contact)[1]
-    return line_reference_film(contact.line_load, contact.entrainment_speed, contact.R, inlet)
+    inlet, u = line_parts(contact)[1], contact.entrainment_speed
+    film = line_reference_film(contact.line_load, u, contact.R, inlet)
+    return film * inlet_cooling(u, inlet)
 
 
 def _line_friction(contact: LineContact, film: float) -> float:
@@ -181,6 +184,7 @@ HYPOID_FLANK = ContactKind(
     reference_film=_flank_film,
     reference_friction=_flank_friction,
     predict=solved_film,
+    smooth=False,
 )
 
 

@@ -9,15 +9,19 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlube.studies.film_model.draws import (
+    OIL_BOX,
     STEEL,
     Box,
     Drawn,
     Limits,
+    drawn_eyring,
     log_uniform,
     numbers_of,
+    oil_fits,
     oil_of_draw,
     oil_of_library,
     oil_temperatures,
+    within,
 )
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_file import BearingFile
@@ -25,8 +29,13 @@ from gearlube_core.bearings.raceway_drag import line_radii
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.errors import ParameterError
-from gearlube_core.film.groups import inlet_heating_number
-from gearlube_core.film_model.line_contact import LEAST_SLIDING, LineContact, line_contact_groups
+from gearlube_core.film_model.line_contact import (
+    LEAST_SLIDING,
+    LineContact,
+    line_contact_groups,
+    line_parts,
+)
+from gearlube_core.film_model.reference_friction import film_resistance, line_reference_friction
 from gearlube_core.film_model.rolling import RollerContact, rolling_groups, rolling_line
 from gearlube_core.friction.line_points import line_points
 from gearlube_core.helical_geometry.contact_line import line_kinematics
@@ -37,47 +46,41 @@ from gearlube_core.units import rpm_to_rads
 _E = STEEL.contact_modulus
 
 # training goes a little farther
-LINE_DOMAIN, LINE_TRAINED = Limits(0.1e9, 3.0, 5.0), Limits(0.09e9, 3.2, 5.3)
-_EDGE_THICKNESS = 1.8
+LINE_DOMAIN, LINE_TRAINED = (
+    Limits(0.1e9, 1.5, 8.0, 4.8, 0.7, 150.0),
+    Limits(0.09e9, 1.65, 8.5, 4.9, 0.6, 200.0),
+)
+_EDGE_THICKNESS = math.log(1.25)
 
-# what the shipped helical pairs visit, see `pair_contacts`, and a margin
+# spur teeth of cars to truck axles, creep to top speed, and a margin
 LINE_BOX: Box = {
-    "mean pressure [GPa]": (1e-9 * LINE_TRAINED.least_pressure, 1.1, "log"),
-    "slide-roll ratio and 0.003, root of squares": (LEAST_SLIDING, 0.85, "log"),
-    "viscosity [Pa s]": (0.0085, 0.115, "log"),
-    "Roelands Z": (0.37, 0.86, "log"),
-    "Eyring stress [MPa]": (1.0, 10.0, "log"),
-    "u/R [1/s]": (60.0, 1400.0, "log"),
-    "u R [m2/s]": (0.0065, 0.55, "log"),
-    "Houpert S0": (0.95, 1.3, "log"),
-    "oil temperature [degC]": (38.0, 122.0, "even"),
-    "conductivity [W/(m K)]": (0.105, 0.155, "log"),
-    "heat capacity [MJ/(m3 K)]": (1.6, 1.9, "log"),
+    "mean pressure [GPa]": (1e-9 * LINE_TRAINED.least_pressure, 2.0, "log"),
+    "slide-roll ratio and 0.003, root of squares": (LEAST_SLIDING, 1.3, "log"),
+    "u [m/s]": (0.02, 30.0, "log"),
+    "R [mm]": (2.0, 60.0, "log"),
+    **OIL_BOX,
 }
 
 # N.m, of the papers
 _TORQUES = {"he_2007": 226.0, "jamali_2015_a": 1060.0, "jamali_2015_b": 1060.0}
 _USUAL_TORQUE = 300.0  # N.m, of other pairs
-_TORQUE_SHARES = (0.05, 1.5)
-_SPEEDS = (500.0, 6000.0)  # rpm of the pinion
+_TORQUE_SHARES = (0.05, 2.0)
+_SPEEDS = (20.0, 12000.0)  # rpm of the pinion
 _PHASES, _NODES = 24, 6  # of the points on the lines
 _UNEVEN = (0.4, 1.6)  # load of a point over the mean of all lines
 # training goes a little farther
-ROLLER_DOMAIN, ROLLER_TRAINED = Limits(0.1e9, 2.5, 3.0), Limits(0.09e9, 2.75, 3.2)
-_ROLLER_EDGE_THICKNESS = 1.5  # from there on films change most from contact to contact
+ROLLER_DOMAIN, ROLLER_TRAINED = (
+    Limits(0.1e9, 2.5, 5.0, 4.8, -0.5, math.inf),
+    Limits(0.09e9, 2.75, 5.5, 4.9, -0.6, math.inf),
+)
+_ROLLER_EDGE_THICKNESS = math.log(1.5)  # from there on films change most from contact to contact
 
-# what the rollers of the shipped bearings visit, see `roller_contacts`, and a margin
+# rollers of cars to truck axles, creep to top speed, and a margin
 ROLLER_BOX: Box = {
-    "mean pressure [GPa]": (1e-9 * ROLLER_TRAINED.least_pressure, 1.4, "log"),
-    "viscosity [Pa s]": (0.0055, 0.12, "log"),
-    "Roelands Z": (0.37, 0.86, "log"),
-    "Eyring stress [MPa]": (1.0, 10.0, "log"),
-    "u/R [1/s]": (20.0, 2200.0, "log"),
-    "u R [m2/s]": (0.0008, 0.15, "log"),
-    "Houpert S0": (0.95, 1.3, "log"),
-    "oil temperature [degC]": (38.0, 122.0, "even"),
-    "conductivity [W/(m K)]": (0.105, 0.155, "log"),
-    "heat capacity [MJ/(m3 K)]": (1.6, 1.9, "log"),
+    "mean pressure [GPa]": (1e-9 * ROLLER_TRAINED.least_pressure, 2.0, "log"),
+    "u [m/s]": (0.01, 25.0, "log"),
+    "R [mm]": (1.5, 40.0, "log"),
+    **OIL_BOX,
 }
 
 AXLE_BEARING = "mohammadpour_2015"
@@ -85,21 +88,22 @@ AXLE_BEARING = "mohammadpour_2015"
 
 def line_fits(contact: LineContact, limits: Limits) -> bool:
     """Tell whether a contact lies within limits."""
-    heat = inlet_heating_number(
-        contact.eta0, contact.beta, contact.entrainment_speed, contact.conductivity
-    )
-    p = line_mean_pressure(contact.line_load, contact.R, contact.contact_modulus)
-    return (
-        heat <= limits.most_heat
-        and p >= (1.0 - 1e-9) * limits.least_pressure
-        and line_contact_groups(contact).thickness <= limits.most_thickness
-    )
+    if not oil_fits(contact):
+        return False
+    groups, c = line_contact_groups(contact), contact
+    p = line_mean_pressure(c.line_load, c.R, c.contact_modulus)
+    inlet, half = line_parts(c)[1], 0.5 * c.line_load / p
+    film = (half * math.exp(groups.thickness)) ** 2 / c.R
+    u, slip = c.entrainment_speed, c.sliding_speed
+    friction = line_reference_friction(film, p, u, slip, half, c.R, inlet)
+    rise = friction * p * slip * film_resistance(film, u, half, inlet)
+    return within(groups, rise, limits, c.contact_modulus)
 
 
 def line_box_contact(box: Box, draw: Array) -> LineContact:
     """Return the contact of one draw, numbers from 0 to 1 in the order of the box."""
-    p, slide, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
-    R, u = math.sqrt(times / per), math.sqrt(times * per)
+    p, slide, u, R_mm, *oil = numbers_of(box, draw)
+    R = 1e-3 * R_mm
     return LineContact(
         line_load=(1e9 * p) ** 2 / line_mean_pressure(1.0, R, _E) ** 2,
         contact_modulus=_E,
@@ -108,7 +112,7 @@ def line_box_contact(box: Box, draw: Array) -> LineContact:
         sliding_speed=u * math.sqrt(max(slide * slide - LEAST_SLIDING * LEAST_SLIDING, 0.0)),
         limiting_stress=0.0,
         limiting_slope=0.0,
-        **oil_of_draw(eta0, Z, tau0, S0, T, k, c),
+        **oil_of_draw(oil),
     )
 
 
@@ -135,10 +139,10 @@ def pair_contacts(
 ) -> list[LineContact]:
     """Return contacts that helical pairs visit, at random.
 
-    Speed of the pinion within 500 to 6000 rpm, its torque within 5 to 150 % of the paper's and the
-    Eyring stress within 1 to 10 MPa evenly in the logarithm, oil at 40 to 120 degC, any place on
-    any line at any phase of the mesh. The load per length is the mean of all lines times 0.4 to
-    1.6.
+    Speed of the pinion within 20 to 12,000 rpm and its torque within 5 to 200 % of the paper's
+    evenly in the logarithm, oil at -20 to 150 degC within its data, Eyring stress of
+    `drawn_eyring`, any place on any line at any phase of the mesh. The load per length is the mean
+    of all lines times 0.4 to 1.6.
     """
     rng = np.random.default_rng(seed)
     places = []
@@ -166,7 +170,7 @@ def pair_contacts(
             sliding_speed=abs(motion.sliding),
             limiting_stress=0.0,
             limiting_slope=0.0,
-            **oil_of_library(oil, temperature, 1e6 * log_uniform(rng, 1.0, 10.0)),
+            **oil_of_library(oil, temperature, drawn_eyring(rng)),
         )
         if line_fits(one, limits):
             found.append(one)
@@ -185,16 +189,16 @@ class _Races(NamedTuple):
 def _races(name: str) -> _Races:
     """Return the bearings of the shipped axle's shafts, or the bearing of a bearing file.
 
-    The axle: both shafts from 20 to 100 km/h, 5 to 400 N.m and a preload of 2500 N.
+    The axle: both shafts from 2 to 250 km/h, 5 to 400 N.m and a preload of 2500 N.
     """
     if name == AXLE_BEARING:
         p = TaperedRollerBearing.mohammadpour_2015().with_preload(2500.0).parameters()
-        speeds = rpm_to_rads(160.0), rpm_to_rads(2300.0)
+        speeds = rpm_to_rads(12.0), rpm_to_rads(5800.0)
         loads = 50.0 / p.roller_length, 7000.0 / p.roller_length
         return _Races(line_radii(p), p.film_speed_radius, speeds, loads)
     geometry = BearingFile.named(name).geometry()
     b = geometry.parameters()
-    speeds = rpm_to_rads(200.0), rpm_to_rads(4000.0)
+    speeds = rpm_to_rads(20.0), rpm_to_rads(6000.0)
     return _Races((b.R_inner, b.R_outer), b.mean_ratio, speeds, (3e2 / b.length, 6e3 / b.length))
 
 
@@ -205,14 +209,14 @@ def roller_fits(contact: RollerContact, limits: Limits) -> bool:
 
 def roller_box_contact(box: Box, draw: Array) -> RollerContact:
     """Return the contact of one draw, numbers from 0 to 1 in the order of the box."""
-    p, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
-    R, u = math.sqrt(times / per), math.sqrt(times * per)
+    p, u, R_mm, *oil = numbers_of(box, draw)
+    R = 1e-3 * R_mm
     return RollerContact(
         line_load=(1e9 * p) ** 2 / line_mean_pressure(1.0, R, _E) ** 2,
         contact_modulus=_E,
         R=R,
         speed=u,
-        **oil_of_draw(eta0, Z, tau0, S0, T, k, c),
+        **oil_of_draw(oil),
     )
 
 
@@ -240,7 +244,7 @@ def roller_contacts(
     """Return contacts that the rollers of bearings visit, at random.
 
     Bearing and race at random; speed of the shaft and load of a roller evenly in the logarithm,
-    oil at 40 to 120 degC, Eyring stress evenly in the logarithm within 1 to 10 MPa.
+    oil at -20 to 150 degC within its data, Eyring stress of `drawn_eyring`.
 
     Parameters
     ----------
@@ -270,7 +274,7 @@ def roller_contacts(
             one.ratio * log_uniform(rng, *one.speeds),
             oil,
             rng.uniform(*oil_temperatures(oil)),
-            1e6 * log_uniform(rng, 1.0, 10.0),
+            drawn_eyring(rng),
         )
         if roller_fits(contact, limits):
             found.append(contact)
@@ -278,7 +282,12 @@ def roller_contacts(
 
 
 def roller_contact_of(
-    line_load: float, R: float, speed: float, oil: Lubricant, temperature: float, tau0: float
+    line_load: float,
+    R: float,
+    speed: float,
+    oil: Lubricant,
+    temperature: float,
+    eyring: tuple[float, float] | None = None,
 ) -> RollerContact:
     """Return the contact of steel bodies with an oil of the library.
 
@@ -288,13 +297,13 @@ def roller_contact_of(
         [N/m], [m], rolling speed [m/s].
     oil, temperature
         Oil and its temperature [K].
-    tau0
-        Eyring stress [Pa].
+    eyring
+        As of `oil_of_library`.
     """
     return RollerContact(
         line_load=line_load,
         contact_modulus=_E,
         R=R,
         speed=speed,
-        **oil_of_library(oil, temperature, tau0),
+        **oil_of_library(oil, temperature, eyring),
     )

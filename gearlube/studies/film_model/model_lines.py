@@ -19,17 +19,18 @@ _WORDS = {
     "psi": ("entrainment from the minor axis [deg]", False),
     "slide_roll": ("sliding over entrainment", True),
     "delta": ("sliding from entrainment [deg]", False),
-    "viscosity": ("viscosity over 63 uPa s", True),
-    "exponent": ("Z of Roelands", True),
-    "stress": ("Eyring stress over E*", True),
-    "rate": ("kappa u/(E* R_x)", True),
+    "sharpness": ("alpha p over thickness^(2/3)", True),
+    "shape": ("ln(eta/eta0) over alpha p at mean pressure", True),
+    "stress": ("Eyring stress at mean pressure over E*", True),
+    "limited": ("1 with a local Eyring stress, 0 with a constant one", False),
+    "rate": ("eta0 u/(E* R_x)", True),
     "peclet": ("u R_x over the solids' diffusivity", True),
-    "cooling": ("S0 of Houpert", True),
-    "warmth": ("E*/[rho c (T - 138 K)] of the solids", True),
+    "cooling": ("d ln(eta)/dT at mean pressure over at ambient", True),
+    "warmth": ("beta T of the inlet", True),
     "conductivity": ("conductivity, oil over solids", True),
     "capacity": ("heat capacity by volume, oil over solids", True),
     "heat": ("beta eta0 u^2/k of the oil", True),
-    "thickness": ("(h R_x)^(1/2)/a_x", False),
+    "thickness": ("(h R_x)^(1/2)/a_x", True),
 }
 # groups that are constant in contacts of a kind
 _CONSTANT = {
@@ -84,7 +85,7 @@ def model_lines(model: FilmModel) -> list[str]:
             lines.append(f"{key}: {_text(value)}")
     lines.append(
         f"bounds, 95 %: central film {100.0 * model.film_bound:.2f} %, friction "
-        f"{100.0 * model.friction_bound:.2f} %{model.words_of_domain}"
+        f"{100.0 * model.friction_bound:.2f} %"
     )
     lines.append("domain:")
     for group, (low, high) in model.domain.items():

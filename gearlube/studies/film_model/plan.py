@@ -12,6 +12,7 @@ from gearlube.studies.film_model.kinds import Contact, ContactKind, kind_named
 from gearlube.studies.film_model.line_samples import AXLE_BEARING
 from gearlube_core.checks import check_within
 from gearlube_core.film_model.model import FLANK, LINE, ROLLER
+from gearlube_core.oil.lubricant import lubricant_names
 from gearlube_core.oil.oil_file import read_oil
 
 # seeds of the sets, added to that of the plan
@@ -65,7 +66,7 @@ class FilmPlan:
     """
 
     contact: str = FLANK
-    oils: tuple[str, ...] = ("mohammadpour_2015", "karagiannis_2012")
+    oils: tuple[str, ...] = lubricant_names()
     mesh_table: str = "mohammadpour_2015"
     pairs: tuple[str, ...] = ("he_2007", "jamali_2015_a", "jamali_2015_b")
     bearings: tuple[str, ...] = (AXLE_BEARING, "wingertszahn_2023")

@@ -8,20 +8,32 @@ from collections.abc import Sequence
 import numpy as np
 
 from gearlube.studies.film_model.draws import (
+    OIL_BOX,
     SOLID_HEAT_CAPACITY,
     STEEL,
     Box,
     Drawn,
     Limits,
+    drawn_eyring,
+    log_uniform,
     numbers_of,
+    oil_fits,
     oil_of_draw,
+    oil_of_library,
     oil_temperatures,
+    within,
 )
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import ellipticity, hertz_coefficients
 from gearlube_core.ehl.gears.hypoid_film import pair_contact
-from gearlube_core.film.groups import inlet_heating_number
-from gearlube_core.film_model.groups import FilmContact, contact_groups, film_contact
+from gearlube_core.film_model.groups import (
+    FilmContact,
+    contact_groups,
+    contact_parts,
+    film_contact,
+    semi_minor_axis,
+)
+from gearlube_core.film_model.reference_friction import film_resistance, reference_friction
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import rpm_to_rads
@@ -33,27 +45,22 @@ _LEAST_LOAD = 1.0  # N
 
 
 # training goes a little farther
-# beyond a heat of 0.6 films take long or are not found
-DOMAIN, TRAINED = Limits(0.2e9, 1.0, 0.6), Limits(0.18e9, 1.15, 0.6)
-_EDGE_THICKNESS = 0.6  # from there on films change most from contact to contact
+DOMAIN, TRAINED = (
+    Limits(0.15e9, 1.1, 3.0, 3.85, 0.6, 150.0),
+    Limits(0.14e9, 1.2, 3.2, 3.95, 0.5, 180.0),
+)
+_EDGE_THICKNESS = math.log(0.6)  # from there on films change most from contact to contact
 
-# What the shipped axle visits from 20 to
-# 100 km/h, with 5 to 400 N.m and oil of 40 to 120 degC, and a margin.
+# hypoid flanks of cars to truck axles, creep to top speed, and a margin
 HYPOID_BOX: Box = {
-    "mean pressure [GPa]": (1e-9 * TRAINED.least_pressure, 1.08, "log"),
-    "R_y/R_x": (36.0, 190.0, "log"),
-    "entrainment angle [deg]": (28.0, 67.0, "even"),
-    "slide-roll ratio": (0.54, 1.0, "log"),
-    "sliding from entrainment [deg]": (-2.0, 54.0, "even"),
-    "viscosity [Pa s]": (0.0085, 0.115, "log"),
-    "Roelands Z": (0.37, 0.86, "log"),
-    "Eyring stress [MPa]": (1.0, 10.0, "log"),
-    "u/R_x [1/s]": (28.0, 520.0, "log"),
-    "u R_x [m2/s]": (0.0065, 0.19, "log"),
-    "Houpert S0": (0.95, 1.3, "log"),
-    "oil temperature [degC]": (38.0, 122.0, "even"),
-    "conductivity [W/(m K)]": (0.105, 0.155, "log"),
-    "heat capacity [MJ/(m3 K)]": (1.6, 1.9, "log"),
+    "mean pressure [GPa]": (1e-9 * TRAINED.least_pressure, 1.7, "log"),
+    "R_y/R_x": (30.0, 200.0, "log"),
+    "entrainment angle [deg]": (25.0, 70.0, "even"),
+    "slide-roll ratio": (0.4, 1.1, "log"),
+    "sliding from entrainment [deg]": (-4.0, 56.0, "even"),
+    "u [m/s]": (0.03, 25.0, "log"),
+    "R_x [mm]": (8.0, 45.0, "log"),
+    **OIL_BOX,
 }
 
 
@@ -85,21 +92,23 @@ def _drawn(box: Box) -> Drawn:
 
 
 def _fits(contact: FilmContact, limits: Limits) -> bool:
-    heat = inlet_heating_number(
-        contact.eta0, contact.beta, contact.entrainment_speed, contact.conductivity
-    )
-    p = contact.pressure_coefficient * contact.load ** (1.0 / 3.0)
-    return (
-        heat <= limits.most_heat
-        and p >= (1.0 - 1e-9) * limits.least_pressure
-        and contact_groups(contact).thickness <= limits.most_thickness
-    )
+    if not oil_fits(contact):
+        return False
+    groups, c = contact_groups(contact), contact
+    place, inlet = contact_parts(c)
+    p = c.pressure_coefficient * c.load ** (1.0 / 3.0)
+    semi_axis = semi_minor_axis(c.load, p, place)
+    film = (semi_axis * math.exp(groups.thickness)) ** 2 / c.R_x
+    across, slip = c.entrainment_speed * place.cos_psi, c.sliding_speed
+    friction = reference_friction(film, p, across, slip, semi_axis, c.R_x, inlet)
+    rise = friction * p * slip * film_resistance(film, across, semi_axis, inlet)
+    return within(groups, rise, limits, c.contact_modulus)
 
 
 def box_contact(box: Box, draw: Array) -> FilmContact:
     """Return the contact of one draw, numbers from 0 to 1 in the order of the box."""
-    p, ratio, psi, slide, delta, eta0, Z, tau0, per, times, S0, T, k, c = numbers_of(box, draw)
-    R_x, u = math.sqrt(times / per), math.sqrt(times * per)
+    p, ratio, psi, slide, delta, u, R_mm, *oil = numbers_of(box, draw)
+    R_x = 1e-3 * R_mm
     coefficient = hertz_coefficients(R_x, ratio * R_x, _E)[2]
     return FilmContact(
         load=(1e9 * p / coefficient) ** 3,
@@ -114,7 +123,7 @@ def box_contact(box: Box, draw: Array) -> FilmContact:
         sliding_angle=math.radians(delta),
         limiting_stress=0.0,
         limiting_slope=0.0,
-        **oil_of_draw(eta0, Z, tau0, S0, T, k, c),
+        **oil_of_draw(oil),
     )
 
 
@@ -123,21 +132,21 @@ def axle_contacts(
 ) -> list[FilmContact]:
     """Return contacts that an axle visits, at random.
 
-    Speed evenly within 20 to 100 km/h, the pinion's torque within 5 to 400 N.m and the Eyring
-    stress within 1 to 10 MPa evenly in the logarithm, oil at 40 to 120 degC, any phase of the
+    Speed within 2 to 250 km/h and the pinion's torque within 5 to 400 N.m evenly in the logarithm,
+    oil at -20 to 150 degC within its data, Eyring stress of `drawn_eyring`, any phase of the
     engagement with load; every fourth coasts, with at most 100 N.m. The load is the static one
     times 0.8 to 1.2.
     """
     rng = np.random.default_rng(seed)
     found: list[FilmContact] = []
     while len(found) < count:
-        speed = rpm_to_rads(_RPM_PER_KMH * rng.uniform(20.0, 100.0))
+        speed = rpm_to_rads(_RPM_PER_KMH * log_uniform(rng, 2.0, 250.0))
         side = 1.0 if rng.random() < 0.75 else -1.0
         most = 400.0 if side > 0.0 else 100.0
-        torque = math.exp(rng.uniform(math.log(5.0), math.log(most)))
+        torque = log_uniform(rng, 5.0, most)
         oil = oils[int(rng.integers(len(oils)))]
         temperature = rng.uniform(*oil_temperatures(oil))
-        tau0 = 1e6 * math.exp(rng.uniform(0.0, math.log(10.0)))
+        eyring = drawn_eyring(rng)
         factor = rng.uniform(0.8, 1.2)
         contact = pair_contact(mesh, side * torque, np.array([rng.uniform(-1.5, 1.5)]))
         load = factor * torque / mesh.mean("R_p", side * torque) * float(contact.share[0])
@@ -150,7 +159,7 @@ def axle_contacts(
             contact.sliding[0] * speed,
             oil,
             temperature,
-            tau0,
+            eyring,
         )
         if _fits(one, limits):
             found.append(one)
@@ -164,7 +173,7 @@ def flank_contact_of(
     sliding: Array,
     oil: Lubricant,
     temperature: float,
-    tau0: float,
+    eyring: tuple[float, float] | None = None,
 ) -> FilmContact:
     """Return the contact of steel flanks with an oil of the library.
 
@@ -178,25 +187,19 @@ def flank_contact_of(
         Along the same axes [m/s].
     oil, temperature
         Oil and its temperature [K].
-    tau0
-        Eyring stress [Pa].
+    eyring
+        As of `oil_of_library`.
     """
-    state = oil.state(temperature)
-    return film_contact(
+    idle = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
+    place = film_contact(
         load,
         _E,
         *radii,
         (float(entrainment[0]), float(entrainment[1])),
         (float(sliding[0]), float(sliding[1])),
-        (
-            state.eta0,
-            state.slope,
-            state.beta,
-            tau0,
-            state.conductivity,
-            oil.density * oil.heat_capacity,
-        ),
+        idle,
         (0.0, 0.0),
         temperature,
         (STEEL.conductivity, SOLID_HEAT_CAPACITY),
     )
+    return place._replace(**oil_of_library(oil, temperature, eyring))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearlube_core.contact.solid import Solid
 from gearlube_core.ehl.gears.hypoid_film import FlankInstant, flank_contact
@@ -16,10 +16,15 @@ from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.oil.film_oil import FilmOil
 from gearlube_core.oil.film_oil_data import film_oil
 from gearlube_core.oil.oil_heat import OilHeat
+from gearlube_core.oil.pressure_factor import PressureFactor
 from gearlube_core.oil.roelands_1966 import GLASS_TEMPERATURE, ROELANDS_KAPPA
+from gearlube_core.oil.shape_law import OilLine, ShapedViscosity
+from gearlube_core.oil.walther_1931 import MM2_S, WALTHER_SHIFT, walther_double_log
 
-_SETTINGS = PointSolverSettings(wedge="quick", tolerance=1e-5, estimate_error=False)
-_HEAT = PointThermalSettings(tolerance=1e-5, max_turns=40)
+_SETTINGS = PointSolverSettings(
+    wedge="quick", tolerance=1e-4, fall_back=False, estimate_error=False
+)
+_HEAT = PointThermalSettings(tolerance=3e-4, max_turns=30)
 _POISSON = 0.3
 # only products with heat capacities act
 _OIL_DENSITY, _SOLID_DENSITY = 870.0, 7850.0  # kg/m3
@@ -39,21 +44,45 @@ class Solved(NamedTuple):
 
 
 def contact_oil(contact: FilmContact | LineContact) -> FilmOil:
-    """Return the oil of a contact: Houpert, Dowson and Higginson, Eyring; no limiting stress."""
-    log_ratio = math.log(contact.eta0 / ROELANDS_KAPPA)
+    """Return the oil of a contact: its viscosity law, Dowson and Higginson, Eyring.
+
+    With an Eyring slope Lambda the stress is limited to Lambda p, else not at all.
+    """
+    c = contact
+    heat = OilHeat(conductivity=c.conductivity, heat_capacity=c.heat_capacity / _OIL_DENSITY)
+    law: Any = "houpert"
+    exponent = 0.0
+    if c.modulus > 0.0:
+        law = contact_modulus_law(c)
+    else:
+        exponent = c.beta * (c.temperature - GLASS_TEMPERATURE) / math.log(c.eta0 / ROELANDS_KAPPA)
     return film_oil(
-        eta0=contact.eta0,
-        alpha=contact.alpha,
-        law="houpert",
+        eta0=c.eta0,
+        alpha=None if c.modulus > 0.0 else c.alpha,
+        law=law,
         rho0=_OIL_DENSITY,
-        eyring_stress=contact.tau0,
-        temperature=contact.temperature,
-        temperature_exponent=contact.beta * (contact.temperature - GLASS_TEMPERATURE) / log_ratio,
-        heat=OilHeat(
-            conductivity=contact.conductivity,
-            heat_capacity=contact.heat_capacity / _OIL_DENSITY,
-        ),
+        eyring_stress=None if c.eyring_slope > 0.0 else c.tau0,
+        eyring_slope=c.eyring_slope,
+        temperature=c.temperature,
+        temperature_exponent=exponent,
+        heat=heat,
     )
+
+
+def contact_modulus_law(contact: FilmContact | LineContact) -> ShapedViscosity:
+    """Return the pressure factor of a contact with the line of Walther through eta0 and beta."""
+    c, nu = contact, contact.eta0 / _OIL_DENSITY
+    shifted = nu / MM2_S + WALTHER_SHIFT
+    B = c.beta * c.temperature * nu / MM2_S / (shifted * math.log(shifted))
+    A = walther_double_log(nu) + B * math.log10(c.temperature)
+    factor = PressureFactor(
+        c.modulus - c.modulus_turn * c.temperature,
+        c.modulus_turn,
+        c.modulus_slope - c.slope_turn * c.temperature,
+        c.slope_turn,
+    )
+    line = OilLine(A, B, _OIL_DENSITY, 1.0)
+    return ShapedViscosity(factor, 1.0, 1.0, line, c.temperature, 1.0, 1.0)
 
 
 def contact_solid(contact: FilmContact | LineContact) -> Solid:

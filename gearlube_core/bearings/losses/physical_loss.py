@@ -6,11 +6,12 @@ import math
 from typing import NamedTuple
 
 from gearlube_core.arrays import Array
-from gearlube_core.bearings.losses.race_rolling import race_rolling, roller_inlet
+from gearlube_core.bearings.losses.race_rolling import race_rolling
 from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
 from gearlube_core.bearings.losses.rolling import hysteresis_power, liebrecht_drag, rolling_power
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_starvation
+from gearlube_core.film_model.groups import model_inlet
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
@@ -101,7 +102,7 @@ def physical_loss(
     if speed <= 0.0:
         return PhysicalLoss(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     u = b.mean_ratio * speed
-    inlet = roller_inlet(oil, b.solid)
+    inlet = model_inlet(oil, b.solid, 0.0)
     contacts = 0
     most = 0.0
     for i in range(int(b.n_rollers)):

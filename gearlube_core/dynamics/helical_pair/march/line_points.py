@@ -46,8 +46,8 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 )
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model import net
+from gearlube_core.film_model.groups import model_inlet
 from gearlube_core.film_model.solved_film import SolvedFilm
-from gearlube_core.friction.flank_film import model_inlet
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LineState, line_friction
 from gearlube_core.friction.mixed_friction import SPEED_FLOOR
