@@ -38,11 +38,12 @@ class Outside(NamedTuple):
     def exceeded(self, pressure: float, film: float, top: float) -> list[list[str]]:
         """Return how many exceed each bound above and below a pressure [Pa].
 
-        The bound of the film is relative, `top` that of the friction over the isothermal value.
+        The bound of the film is how much thinner it may be, relative; `top` that of the friction
+        over the isothermal value.
         """
         above = self.pressure >= pressure
         bounds = {
-            f"film: {100.0 * film:.0f} % of the formula's": np.abs(self.film - 1.0) > film,
+            f"film: at least {100.0 * (1.0 - film):.0f} % of the formula's": self.film < 1.0 - film,
             f"friction: between 0 and {top:g} times the isothermal Eyring value": (
                 self.friction / self.isothermal > top
             ),

@@ -309,7 +309,8 @@ def test_the_oil_of_a_model_is_that_of_a_solved_film(name):
             under = oil_under(p, local)
             ratio = math.log(viscosity(law, p) / law.eta0)
             assert under.log_ratio == pytest.approx(ratio, rel=1e-9)
-            assert under.decline == pytest.approx(viscosity_cooling(law, p, T), rel=1e-9)
+            # the law of films takes a difference over 1e-4 of T
+            assert under.decline == pytest.approx(viscosity_cooling(law, p, T), rel=1e-6)
             assert under.stress == pytest.approx(2.0 * 0.05 * p / ratio, rel=1e-9)
 
 

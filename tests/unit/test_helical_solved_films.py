@@ -89,9 +89,9 @@ def test_losses_have_a_bound_and_the_share_outside():
 
 def test_points_that_the_film_model_does_not_cover_are_those_of_the_formulas():
     """The pair of the command `helical --parts losses --film-model solved`, beyond its films."""
-    fast = {"pinion_torque": 200.0, "pinion_speed": 628.3, "torques": (200.0,), "draws": 8}
+    fast = {"pinion_torque": 50.0, "pinion_speed": 1047.2, "torques": (50.0,), "draws": 8}
     fast["friction"] = "film"  # asperities that hardly act
-    speeds = (628.3, 837.8, 1047.2)  # 6000, 8000, 10000 rpm
+    speeds = (1047.2, 1675.5, 2513.3)  # 10000, 16000, 24000 rpm
     one = settings(**fast, speeds=speeds, film_model="solved")
     solved = losses_dataset(one, one.constant_mesh()).squeeze()
     plain = settings(**fast, speeds=speeds)
@@ -108,11 +108,12 @@ def test_points_that_the_film_model_does_not_cover_are_those_of_the_formulas():
         [float(one[f"loss_torque_{end}"][0] / one["loss_torque"][0]) for end in ("low", "high")]
         for one in (solved, formula)
     ]
-    # solved films follow the same draws, about three quarters as far
+    # solved films follow the same draws about as far; one that went to the formulas' loss, a
+    # quarter more, would move the end of the bar twice as far
     moved = [(one - 1.0) / (other - 1.0) for one, other in zip(*bars, strict=True)]
-    assert moved == pytest.approx([0.75, 0.75], abs=0.05)
+    assert moved == pytest.approx([1.0, 1.0], abs=0.3)
     told = " ".join(f.headline for f in findings({"losses": solved.expand_dims("temperature")}))
-    assert "by formulas and not by solved films at 2 of 3 points, at 8000 to 10000 rpm" in told
+    assert "by formulas and not by solved films at 2 of 3 points, at 16000 to 24000 rpm" in told
     low, high = (100.0 * (1.0 - float(solved["share_outside"][k])) for k in (2, 1))
     assert f"covers only {low:.3g} to {high:.3g} % of the load" in told
     assert "those of solved films at 1 of 3 points" in told

@@ -47,10 +47,10 @@ _E = STEEL.contact_modulus
 
 # training goes a little farther
 LINE_DOMAIN, LINE_TRAINED = (
-    Limits(0.1e9, 1.5, 8.0, 4.8, 0.7, 150.0),
-    Limits(0.09e9, 1.65, 8.5, 4.9, 0.6, 200.0),
+    Limits(0.1e9, 2.2, 8.0, 4.8, 0.7, 150.0),
+    Limits(0.09e9, 2.4, 8.5, 4.9, 0.6, 200.0),
 )
-_EDGE_THICKNESS = math.log(1.25)
+_EDGE_THICKNESS = math.log(1.8)
 
 # spur teeth of cars to truck axles, creep to top speed, and a margin
 LINE_BOX: Box = {
