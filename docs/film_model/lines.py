@@ -18,7 +18,7 @@ from gearlube.studies.film_model.draws import ANYWHERE, STEEL
 from gearlube.studies.film_model.kinds import HELICAL_LINE
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube_core.contact.greenwood_tripp_1971 import gear_flanks
-from gearlube_core.film_model.groups import model_inlet
+from gearlube_core.film_model.inlet import model_inlet
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_line
 from gearlube_core.friction.line_points import line_friction, line_points, uniform_line_load

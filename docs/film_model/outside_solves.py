@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 from gearlube.studies.film_model.kinds import Contact, ContactKind
 from gearlube.studies.film_model.plan import FilmTask
 from gearlube.studies.film_model.solves import SolveRow, SolveTable, failed_row, row_key, solve_task

@@ -27,7 +27,7 @@ from gearlube_core.bearings.parameters import BearingParameters
 from gearlube_core.bearings.raceway_drag import line_radii, steady_load, steady_rollers
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model import net
-from gearlube_core.film_model.groups import FilmInlet, model_inlet
+from gearlube_core.film_model.inlet import FilmInlet, model_inlet
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from gearlube_core.contact.solid import Solid, SolidParameters, solid_parameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.film_model.groups import FilmGroups, model_inlet
+from gearlube_core.film_model.groups import FilmGroups
+from gearlube_core.film_model.inlet import model_inlet
 from gearlube_core.film_model.line_contact import line_groups_at, line_place
 from gearlube_core.film_model.model import FLANK, LINE, ROLLER, FilmModel, model_names
 from gearlube_core.film_model.solved_film import MODULUS_MARGIN

@@ -12,15 +12,8 @@ from typing import NamedTuple
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.film.groups import line_moes_groups
 from gearlube_core.film.line_film import central_film_group
-from gearlube_core.film_model.groups import (
-    LEAST_SPEED,
-    THIN,
-    FilmGroups,
-    FilmInlet,
-    contact_inlet,
-    inlet_cooling,
-    oil_under,
-)
+from gearlube_core.film_model.groups import LEAST_SPEED, THIN, FilmGroups
+from gearlube_core.film_model.inlet import FilmInlet, contact_inlet, inlet_cooling, oil_under
 from gearlube_core.kernels.jit import kernel
 
 LEAST_LINE_LOAD = 1.0  # N/m, film and pressure of an unloaded line are those at this load

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gearlube_core.contact.hertz import LARGEST_OVER_MEAN
-from gearlube_core.film_model.groups import FilmInlet, oil_under
+from gearlube_core.film_model.inlet import FilmInlet, oil_under
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.roelands_1966 import ROELANDS_KAPPA
 

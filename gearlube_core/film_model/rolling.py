@@ -12,7 +12,8 @@ from typing import NamedTuple
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
-from gearlube_core.film_model.groups import LEAST_SPEED, FilmGroups, FilmInlet, inlet_cooling
+from gearlube_core.film_model.groups import LEAST_SPEED, FilmGroups
+from gearlube_core.film_model.inlet import FilmInlet, inlet_cooling
 from gearlube_core.film_model.line_contact import (
     LEAST_LINE_LOAD,
     LineContact,

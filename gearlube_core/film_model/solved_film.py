@@ -11,14 +11,13 @@ from gearlube_core.film_model.groups import (
     LEAST_LOAD,
     LEAST_SPEED,
     FilmContact,
-    FilmInlet,
     FilmPlace,
     contact_parts,
     film_groups,
-    inlet_cooling,
     reference_film,
     semi_minor_axis,
 )
+from gearlube_core.film_model.inlet import FilmInlet, inlet_cooling
 from gearlube_core.film_model.line_contact import (
     LEAST_LINE_LOAD,
     LineContact,

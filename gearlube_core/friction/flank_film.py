@@ -10,7 +10,8 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film_model import net
-from gearlube_core.film_model.groups import FilmInlet, film_place, model_inlet
+from gearlube_core.film_model.groups import film_place
+from gearlube_core.film_model.inlet import FilmInlet, model_inlet
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_film_at
 from gearlube_core.friction.flank_data import ContactGeometry, FlankState

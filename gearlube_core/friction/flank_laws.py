@@ -45,9 +45,9 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 
 # How far off the formulas are where the model does not hold: of 95 % of the contacts solved there
-# with at least 0.1 GPa, see docs/film_model/outside.py. How much thinner than the formula's the film
+# with at least 0.1 GPa, see docs/film_model/outside.py. How much thinner than the formula's a film
 # may be, relative (with cold oil and little load it is up to ten times as thick); and the most
-# friction of the film, over that of an isothermal Eyring film as thick as the formula's.
+# friction of a film, over that of an isothermal Eyring film as thick as the formula's.
 FORMULA_FILM_BOUND = 0.38
 FORMULA_FRICTION_TOP = 1.1
 FORMULA, SOLVED = range(2)  # places in FILM_MODELS

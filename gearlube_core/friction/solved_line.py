@@ -8,7 +8,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.contact.solid import SolidParameters
-from gearlube_core.film_model.groups import FilmInlet, model_inlet
+from gearlube_core.film_model.inlet import FilmInlet, model_inlet
 from gearlube_core.film_model.line_contact import line_place
 from gearlube_core.film_model.solved_film import SolvedFilm, solved_line_at
 from gearlube_core.friction.evans_johnson_1986 import solid_resistance

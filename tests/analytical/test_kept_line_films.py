@@ -23,7 +23,7 @@ from gearlube_core.dynamics.helical_pair.march.line_points import refresh_fricti
 from gearlube_core.dynamics.helical_pair.march.line_sums import pair_slot
 from gearlube_core.dynamics.helical_pair.march.mesh_data import KEPT_AT, LEAST_OFFSET
 from gearlube_core.film.line_film import line_film_thickness
-from gearlube_core.film_model.groups import model_inlet
+from gearlube_core.film_model.inlet import model_inlet
 from gearlube_core.friction.solved_line import line_film, solved_line_friction
 from gearlube_core.helical_geometry.contact_line import line_kinematics
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile

@@ -13,7 +13,7 @@ from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameter
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.errors import ParameterError
-from gearlube_core.film_model.groups import model_inlet
+from gearlube_core.film_model.inlet import model_inlet
 from gearlube_core.film_model.line_contact import LineContact
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.solved_film import solved_line

@@ -20,9 +20,8 @@ from gearlube_core.film_model.groups import (
     contact_groups,
     contact_parts,
     film_contact,
-    model_inlet,
-    oil_under,
 )
+from gearlube_core.film_model.inlet import model_inlet, oil_under
 from gearlube_core.film_model.model import FilmModel
 from gearlube_core.film_model.reference_friction import reference_friction
 from gearlube_core.film_model.solved_film import solved_film

@@ -14,7 +14,8 @@ from gearlube.studies.film_model.model_lines import limit_in_words, limits_of, m
 from gearlube.studies.film_model.samples import HYPOID_BOX, box_contacts
 from gearlube.studies.film_model.solves import failures_in_words
 from gearlube_core.errors import ConvergenceError
-from gearlube_core.film_model.groups import contact_groups, contact_parts, oil_under
+from gearlube_core.film_model.groups import contact_groups, contact_parts
+from gearlube_core.film_model.inlet import oil_under
 from gearlube_core.film_model.model import FLANK, LINE
 from gearlube_core.film_model.solved_film import SolvedFilm
 from tests.helpers.known_answers import named, quantities

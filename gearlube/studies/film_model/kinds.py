@@ -25,10 +25,10 @@ from gearlube_core.film_model.groups import (
     FilmGroups,
     contact_groups,
     contact_parts,
-    inlet_cooling,
     reference_film,
     semi_minor_axis,
 )
+from gearlube_core.film_model.inlet import inlet_cooling
 from gearlube_core.film_model.line_contact import (
     LineContact,
     line_contact_groups,

@@ -11,7 +11,7 @@ from gearlube_core.bearings.losses.rib import RibParameters, rib_friction
 from gearlube_core.bearings.losses.rolling import hysteresis_power, liebrecht_drag, rolling_power
 from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_starvation
-from gearlube_core.film_model.groups import model_inlet
+from gearlube_core.film_model.inlet import model_inlet
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.lubricant_state import LubricantState
 

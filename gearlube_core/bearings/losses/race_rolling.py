@@ -18,7 +18,7 @@ from gearlube_core.contact.solid import SolidParameters
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film.line_film import minimum_line_film_thickness
-from gearlube_core.film_model.groups import FilmInlet
+from gearlube_core.film_model.inlet import FilmInlet
 from gearlube_core.film_model.line_contact import line_place, line_reference_film
 from gearlube_core.film_model.model import ROLLER, SHIPPED, FilmModel, shipped_model
 from gearlube_core.film_model.rolling import solved_rolling_at

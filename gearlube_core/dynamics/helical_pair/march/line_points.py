@@ -46,7 +46,7 @@ from gearlube_core.dynamics.helical_pair.march.mesh_data import (
 )
 from gearlube_core.film.line_film import line_film_thickness
 from gearlube_core.film_model import net
-from gearlube_core.film_model.groups import model_inlet
+from gearlube_core.film_model.inlet import model_inlet
 from gearlube_core.film_model.solved_film import SolvedFilm
 from gearlube_core.friction.flank_laws import SOLVED
 from gearlube_core.friction.line_points import LINE_LOAD_FLOOR, LineState, line_friction
