@@ -40,7 +40,7 @@ from gearlube_core.oil.lubricant_state import LubricantState
 UNCALIBRATED = {one.name: one.factor for one in ROLLING} | {
     "palmgren": 3.0,
     "skf": 5.5,
-    "solved_films": 5.0,
+    "solved_films": 5.5,
 }
 CALIBRATED = 1.25  # with a measured torque of the bearing
 LARGEST_PRESSURE = 4e9  # Pa, static limit of rolling bearings with line contact
