@@ -115,7 +115,7 @@ def refreshed(model: FilmModel, tests: Tests) -> Page:
     put_outside(page)
     page.rows("rpm | oil, °C", losses(model))
     page.fill(
-        "the bounds are {} % of the film, and friction between zero and {} times that of an "
+        "the film is at most {} % thinner, and friction between zero and {} times that of an "
         "isothermal Eyring film",
         f"{100.0 * LINE_FORMULA_FILM_BOUND:.0f}",
         f"{LINE_FORMULA_FRICTION_TOP:g}",
