@@ -86,8 +86,8 @@ def chosen_model(text: str, kind: str, what: str, folder: Path = Path()) -> Film
 
     Examples
     --------
-    >>> chosen_model("roller_race", "roller", "roller_model").checksum
-    'dda85656d17e747d'
+    >>> chosen_model("roller_race", "roller", "roller_model").kind
+    'roller'
     """
     path = file_of_model(text, folder)
     return of_kind(FilmModel.named(text) if path is None else FilmModel.read(path), kind, what)
