@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import SolidParameters
@@ -84,11 +85,9 @@ def _inlet(
 ) -> FilmInlet:
     """Return oil and solids as the film model takes them; kept until the oil changes."""
     oil = film_model[_OIL:_INLET]
-    given = lubricant[:_OIL_FLOATS]
-    known = oil[_OIL_FLOATS] == limiting_slope
-    for i in range(_OIL_FLOATS):
-        known = known and oil[i] == given[i]
-    if not known:
+    # as tuples: an index that varies may lie beyond their end, and native code cannot raise
+    same = to_fixed_tuple(oil, _OIL_FLOATS) == lubricant[:_OIL_FLOATS]
+    if not (same and oil[_OIL_FLOATS] == limiting_slope):
         _keep_inlet(lubricant, solid, limiting_slope, film_model)
     return tuple_from_array(film_model[_INLET:], FilmInlet)
 
