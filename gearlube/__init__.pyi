@@ -203,6 +203,18 @@ from drivetrain.sump_heat import SumpHeat as SumpHeat
 from gearlube.studies.drive_cycle.run import run_cycle as run_cycle
 from drivetrain.steady_temperature import steady_temperature as steady_temperature
 
+# -- Rating of gears
+from gearlube_core.rating.gears import GearMaterial as GearMaterial
+from gearlube_core.rating.gears import RatedGear as RatedGear
+from gearlube_core.rating.gears import LoadFactors as LoadFactors
+from gearlube_core.rating.load_factors import face_load_factor as face_load_factor
+from gearlube_core.rating.load_factors import bevel_face_factor as bevel_face_factor
+from gearlube_core.rating.iso_6336 import cylindrical_rating as cylindrical_rating
+from gearlube_core.rating.bevel_mesh import BevelMesh as BevelMesh
+from gearlube_core.rating.iso_10300 import bevel_rating as bevel_rating
+from gearlube_core.rating.life import miner_sum as miner_sum
+from gearlube_core.rating.life import torque_factor as torque_factor
+
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical

@@ -1,0 +1,1 @@
+"""Rating of gears by the formulas of standards: safety, life and damage."""

@@ -1,0 +1,223 @@
+"""What a rating of gears takes, and what it returns; all standards share it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from gearlube_core.checks import check_option
+from gearlube_core.errors import ParameterError
+from gearlube_core.number import Checked, Number
+from gearlube_core.rating.life import BENDING, PITTING, SOME_PITTING, TREATMENTS, Line, strength
+
+Pair = tuple[float, float]  # of pinion and gear
+Factors = dict[str, float | Pair]
+MM, MPA, UM = 1e3, 1e-6, 1e6  # the standards' units in 1 m, 1 Pa, 1 m
+_DEVIATION = Number("m", 0.0, 2e-3, "13 um is 1.3e-5 m.")
+_FACTOR = Number("1", 0.5, 20.0, "None: by the formulas of the standard.")
+
+
+def both(function: Callable[..., float], *pairs: tuple[object, object]) -> Pair:
+    """Return a function of both members."""
+    return function(*(one[0] for one in pairs)), function(*(one[1] for one in pairs))
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearMaterial(Checked):
+    """Strength of a gear material, as [iso_6336_5] or tests have it.
+
+    Parameters
+    ----------
+    treatment
+        One of `TREATMENTS`. Roughness and notch of nitrided steel are not checked against the
+        source.
+    contact_limit, bending_limit
+        sigma_H lim and nominal sigma_F lim [Pa]; 1500 and 430 MPa are an example of case-hardened
+        steel of medium quality.
+    brinell
+        Hardness of a through-hardened wheel that a hard pinion work-hardens [-].
+    slip_layer
+        rho' of the notch factor [m]; None: 3 um, nitrided 0.1 mm; through-hardened as strong steel.
+    some_pitting
+        Whether some pitting is allowed, which gives another life factor.
+    endurance
+        Whether best material and lubrication keep the life factors at 1 up to 1e10 cycles; not
+        checked against the source.
+    modulus, poisson_ratio, density
+        [Pa], [-], [kg/m3].
+
+    Examples
+    --------
+    >>> steel = GearMaterial(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    >>> steel.contact_life[0]  # cycles and factor on the limit
+    (100000.0, 1.6)
+    """
+
+    treatment: str
+    contact_limit: Annotated[float, Number("Pa", 1e8, 3e9, "1500 MPa is 1.5e9 Pa.")]
+    bending_limit: Annotated[float, Number("Pa", 2e7, 1e9, "430 MPa is 4.3e8 Pa.")]
+    brinell: Annotated[float | None, Number("1", 50.0, 800.0, "130 to 470 is usual.")] = None
+    slip_layer: Annotated[float | None, Number("m", 0.0, 1e-3, "3 um is 3e-6 m.")] = None
+    some_pitting: bool = False
+    endurance: bool = False
+    modulus: Annotated[float, Number("Pa", 1e9, 1e12, "Steel has 2.06e11 Pa.")] = 206e9
+    poisson_ratio: Annotated[float, Number("1", 0.0, 0.5)] = 0.3
+    density: Annotated[float, Number("kg/m3", 500.0, 25000.0)] = 7830.0
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        check_option("treatment", self.treatment, TREATMENTS)
+        if self.some_pitting and self.treatment.startswith("nitr"):
+            raise ParameterError(
+                f"some_pitting must be False with {self.treatment} steel: its thin layer does not "
+                "bear pits."
+            )
+
+    @property
+    def nitrided(self) -> bool:
+        """Whether its layer is nitrided or nitrocarburised."""
+        return self.treatment.startswith("nitr")
+
+    @property
+    def contact_life(self) -> Line:
+        """Z_NT over cycles."""
+        return self._kept(SOME_PITTING if self.some_pitting else PITTING[self.treatment])
+
+    @property
+    def bending_life(self) -> Line:
+        """Y_NT over cycles."""
+        return self._kept(BENDING[self.treatment])
+
+    def _kept(self, line: Line) -> Line:
+        return (*line[:-1], (line[-1][0], 1.0)) if self.endurance else line
+
+
+@dataclass(frozen=True, kw_only=True)
+class RatedGear(Checked):
+    """One gear of a rated pair.
+
+    Parameters
+    ----------
+    material
+        Its strength.
+    pitch_deviation, profile_deviation
+        f_pb, of bevel gears f_pt, and profile form f_f alpha [m].
+    flank_roughness, root_roughness
+        Mean peak to valley R_z [m].
+    bore
+        Inner diameter of the body [m].
+    rim_ratio
+        Thickness of the rim over tooth depth [-]; infinite: solid.
+    protuberance
+        s_pr of the tool less the grinding stock: what stays of the undercut [m].
+    mean_stress
+        Y_M [-]: 1 for load on one flank, about 0.7 where both flanks bear load, as of an idler.
+
+    Examples
+    --------
+    >>> steel = GearMaterial(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    >>> RatedGear(material=steel, flank_roughness=3e-6).root_roughness
+    2e-05
+    """
+
+    material: GearMaterial
+    pitch_deviation: Annotated[float, _DEVIATION] = 10e-6
+    profile_deviation: Annotated[float, _DEVIATION] = 12e-6
+    flank_roughness: Annotated[float, Number("m", 1e-7, 2e-4, "6 um is 6e-6 m.")] = 5e-6
+    root_roughness: Annotated[float, Number("m", 1e-7, 4e-4, "20 um is 2e-5 m.")] = 20e-6
+    bore: Annotated[float, Number("m", 0.0, 10.0, "Give metres, not millimetres.")] = 0.0
+    rim_ratio: float = math.inf
+    protuberance: Annotated[float, Number("m", 0.0, 5e-3, "Give metres, not millimetres.")] = 0.0
+    mean_stress: Annotated[float, Number("1", 0.3, 1.0, "0.7 of an idler.")] = 1.0
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if not self.rim_ratio > 0.5:
+            raise ParameterError(
+                f"rim_ratio must be above 0.5, got {self.rim_ratio:g}. The standard ends there: "
+                "calculate a thinner rim by finite elements."
+            )
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadFactors(Checked):
+    """Factors on the load; None: by the formulas of the standard.
+
+    Parameters
+    ----------
+    face
+        K_H beta [-]: greatest over mean line load along the face. Where a solved distribution gives
+        it, set `transverse` to 1 if that is in it too, and `dynamic` to 1 if the loads are those of
+        solved dynamics. See also `face_load_factor` and `bevel_face_factor`.
+    application, mesh_load
+        K_A; K_gamma of the worst of several paths of power [-].
+    dynamic, transverse, transverse_root, face_root
+        K_v, K_H alpha, K_F alpha, K_F beta [-].
+
+    Examples
+    --------
+    >>> LoadFactors(face=1.2, application=1.25).dynamic is None
+    True
+    """
+
+    face: Annotated[float, Number("1", 1.0, 10.0, "Greatest over mean line load.")]
+    application: Annotated[float, Number("1", 0.1, 10.0, "1 to 2 is usual.")] = 1.0
+    mesh_load: Annotated[float, Number("1", 1.0, 2.0, "1 with one path of power.")] = 1.0
+    dynamic: Annotated[float | None, _FACTOR] = None
+    transverse: Annotated[float | None, _FACTOR] = None
+    transverse_root: Annotated[float | None, _FACTOR] = None
+    face_root: Annotated[float | None, _FACTOR] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class StrengthRating:
+    """Stresses and strengths of pinion and gear against pitting and tooth breakage.
+
+    Parameters
+    ----------
+    contact_stress, bending_stress
+        sigma_H, sigma_F [Pa].
+    contact_lines, bending_lines
+        sigma_HG, sigma_FG over cycles [Pa], for `miner_sum`.
+    cycles
+        Of load on a tooth [-].
+    factors
+        All that they follow from, by the symbols of the standard, of the mesh or of pinion and
+        gear; in N, mm, MPa, um.
+    outside
+        Limits of the method that the gears exceed, and what is missing, in words.
+    standard
+        With edition and letter of the method. Calculated by its formulas as implemented here; check
+        a design against the standard.
+    """
+
+    contact_stress: Pair
+    bending_stress: Pair
+    contact_lines: tuple[Line, Line]
+    bending_lines: tuple[Line, Line]
+    cycles: Pair
+    factors: Factors = field(repr=False)
+    outside: tuple[str, ...]
+    standard: str
+
+    @property
+    def contact_strength(self) -> Pair:
+        """sigma_HG at the cycles [Pa]."""
+        return both(lambda line, n: float(strength(line, n)), self.contact_lines, self.cycles)
+
+    @property
+    def bending_strength(self) -> Pair:
+        """sigma_FG at the cycles [Pa]."""
+        return both(lambda line, n: float(strength(line, n)), self.bending_lines, self.cycles)
+
+    @property
+    def contact_safety(self) -> Pair:
+        """S_H [-]."""
+        return both(lambda a, b: a / b, self.contact_strength, self.contact_stress)
+
+    @property
+    def bending_safety(self) -> Pair:
+        """S_F [-]."""
+        return both(lambda a, b: a / b, self.bending_strength, self.bending_stress)

@@ -1,0 +1,152 @@
+"""Stress over cycles: life factors of gears, strength lines, cycles to failure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from types import MappingProxyType
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
+
+# Load cycles and strength; straight between points in logarithms. Of a life factor, or in Pa.
+Line = tuple[tuple[float, float], ...]
+
+_CASE: Line = ((1e5, 1.6), (5e7, 1.0), (1e10, 0.85))
+_THROUGH: Line = ((1e4, 2.5), (3e6, 1.0), (1e10, 0.85))
+PITTING = MappingProxyType(
+    {
+        "case_hardened": _CASE,
+        "induction_hardened": _CASE,
+        "through_hardened": _CASE,
+        "nitrided": ((1e5, 1.3), (2e6, 1.0), (1e10, 0.85)),
+        "nitrocarburised": ((1e5, 1.1), (2e6, 1.0), (1e10, 0.85)),
+    }
+)
+SOME_PITTING: Line = ((6e5, 1.6), (1e7, 1.3), (1e9, 1.0), (1e10, 0.85))
+BENDING = MappingProxyType(
+    {
+        "case_hardened": ((1e3, 2.5), (3e6, 1.0), (1e10, 0.85)),
+        "induction_hardened": ((1e3, 2.5), (3e6, 1.0), (1e10, 0.85)),
+        "through_hardened": _THROUGH,
+        "nitrided": ((1e3, 1.6), (3e6, 1.0), (1e10, 0.85)),
+        "nitrocarburised": ((1e3, 1.1), (3e6, 1.0), (1e10, 0.85)),
+    }
+)
+TREATMENTS = tuple(PITTING)
+_LEAST, _MOST = 1e-4, 1e4  # of a torque factor
+_TIGHT = 1e-10
+
+
+def strength_line(factors: Line, limit: float, influence: float) -> Line:
+    """Return the strength over cycles, in the unit of the limit.
+
+    The static strength, at the first point, has no influence of lubrication, size and roughness;
+    the others have all of it, and logarithms are straight between.
+
+    Parameters
+    ----------
+    factors
+        Life factors, such as `PITTING["case_hardened"]`.
+    limit
+        Endurance limit at a life factor of 1.
+    influence
+        Product of all other factors of the strength [-].
+    """
+    (n, static), *others = factors
+    return ((n, limit * static), *((m, limit * influence * factor) for m, factor in others))
+
+
+def strength(line: Line, cycles: float | Array) -> Array:
+    """Return the strength, or the life factor, at a number of cycles; constant beyond both ends.
+
+    Source: [iso_6336_2] for Z_NT, [iso_6336_3] for Y_NT.
+
+    Examples
+    --------
+    >>> round(float(strength(PITTING["case_hardened"], 1.080e9)), 3)
+    0.91
+    """
+    n, values = np.log(np.array(line)).T
+    return np.exp(np.interp(np.log(cycles), n, values))
+
+
+def cycles_to_failure(line: Line, stress: float | Array) -> Array:
+    """Return the cycles that a stress lasts.
+
+    0 above the first point, where it fails at once; infinite below the last.
+
+    Examples
+    --------
+    >>> line = strength_line(PITTING["case_hardened"], 1500.0, 1.0)
+    >>> [f"{n:.4g}" for n in cycles_to_failure(line, np.array([1650.0, 1450.0, 1300.0, 1200.0]))]
+    ['1.418e+07', '1.51e+08', '5.31e+09', 'inf']
+    """
+    stress = np.asarray(stress, dtype=float)
+    n, values = np.log(np.array(line)).T
+    found = np.exp(np.interp(np.log(np.maximum(stress, 1e-300)), values[::-1], n[::-1]))
+    return np.where(stress < line[-1][1], np.inf, np.where(stress > line[0][1], 0.0, found))
+
+
+def miner_sum(line: Line, stress: float | Array, cycles: float | Array) -> Array:
+    """Return the damage of each load bin: cycles over cycles to failure [-].
+
+    The sum over bins is Miner's; at 1 the member is expected to fail. Infinite: it fails at once.
+    Source: [iso_6336_6].
+
+    Examples
+    --------
+    >>> line = strength_line(PITTING["case_hardened"], 1500.0, 1.0)
+    >>> stress, cycles = np.array([1650.0, 1450.0, 1300.0, 1200.0]), [2e5, 5e6, 5e7, 1e9]
+    >>> round(float(miner_sum(line, stress, cycles).sum()), 4)
+    0.0566
+    """
+    n, life = np.broadcast_arrays(np.asarray(cycles, dtype=float), cycles_to_failure(line, stress))
+    if not (np.isfinite(n).all() and (n >= 0.0).all()):
+        raise ParameterError("Load cycles must be finite and not negative. Check times and speeds.")
+    damage = np.where(n > 0.0, math.inf, 0.0)
+    np.divide(n, life, out=damage, where=life > 0.0)
+    return damage
+
+
+def torque_factor(damage: Callable[[float], float]) -> float:
+    """Return the factor on all torques of a spectrum at which the damage is 1 [-].
+
+    The safety that users expect of a spectrum; 1 over the damage is none. Infinite: no torque
+    within 10 000 times damages. Where damage jumps from below 1 to failure at once, the factor is
+    that of the jump.
+
+    Parameters
+    ----------
+    damage
+        Miner's sum at a factor; it must not fall with the factor.
+
+    Raises
+    ------
+    ParameterError
+        There is damage of 1 already at 1e-4 times the torque.
+
+    Examples
+    --------
+    Bending: the stress grows with the torque, and one bin lasts for twice its cycles:
+
+    >>> line = BENDING["case_hardened"]
+    >>> damage = lambda factor: float(miner_sum(line, 1.2 * factor, 3e5))
+    >>> found = torque_factor(damage)
+    >>> round(found, 3), round(damage(found), 6)
+    (1.085, 1.0)
+    """
+    low, high = math.log(_LEAST), math.log(_MOST)
+    if damage(_LEAST) >= 1.0:
+        raise ParameterError(
+            f"Damage must be below 1 at {_LEAST:g} times the torque, got {damage(_LEAST):g}. "
+            "Check units of torques and limits: 1500 MPa is 1.5e9 Pa."
+        )
+    if damage(_MOST) < 1.0:
+        return math.inf
+    while high - low > _TIGHT:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if damage(math.exp(middle)) < 1.0 else (low, middle)
+    return math.exp(low)
