@@ -63,6 +63,7 @@ from gearlube_core.dynamics.train.elements.cylindrical_bearing import (
     CylindricalBearing as CylindricalBearing,
 )
 from gearlube_core.bearings.bearing_under_load import bearing_under_load as bearing_under_load
+from gearlube_core.bearings.element_loads import element_loads as element_loads
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh as GearMesh
 from gearlube_core.dynamics.train.elements.joint import Joint as Joint
 from gearlube_core.dynamics.train.elements.orbit import Orbit as Orbit
@@ -203,8 +204,7 @@ from drivetrain.sump_heat import SumpHeat as SumpHeat
 from gearlube.studies.drive_cycle.run import run_cycle as run_cycle
 from drivetrain.steady_temperature import steady_temperature as steady_temperature
 
-# -- Rating of gears
-from gearlube_core.rating.gears import GearMaterial as GearMaterial
+# -- Rating of gears and bearings
 from gearlube_core.rating.gears import RatedGear as RatedGear
 from gearlube_core.rating.gears import LoadFactors as LoadFactors
 from gearlube_core.rating.load_factors import face_load_factor as face_load_factor
@@ -212,6 +212,10 @@ from gearlube_core.rating.load_factors import bevel_face_factor as bevel_face_fa
 from gearlube_core.rating.iso_6336 import cylindrical_rating as cylindrical_rating
 from gearlube_core.rating.bevel_mesh import BevelMesh as BevelMesh
 from gearlube_core.rating.iso_10300 import bevel_rating as bevel_rating
+from gearlube_core.rating.bearing_life import RatedBearing as RatedBearing
+from gearlube_core.rating.bearing_life import equivalent_load as equivalent_load
+from gearlube_core.rating.bearing_life import bearing_life as bearing_life
+from gearlube_core.rating.bearing_life import life_of_spectrum as life_of_spectrum
 from gearlube_core.rating.life import miner_sum as miner_sum
 from gearlube_core.rating.life import torque_factor as torque_factor
 

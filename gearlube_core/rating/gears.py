@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Annotated
+from dataclasses import dataclass
+from typing import Annotated, NamedTuple
 
-from gearlube_core.checks import check_option
+from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import Checked, Number
 from gearlube_core.rating.life import BENDING, PITTING, SOME_PITTING, TREATMENTS, Line, strength
@@ -25,8 +25,8 @@ def both(function: Callable[..., float], *pairs: tuple[object, object]) -> Pair:
 
 
 @dataclass(frozen=True, kw_only=True)
-class GearMaterial(Checked):
-    """Strength of a gear material, as [iso_6336_5] or tests have it.
+class RatedGear(Checked):
+    """Material and quality of one gear of a rated pair.
 
     Parameters
     ----------
@@ -34,24 +34,34 @@ class GearMaterial(Checked):
         One of `TREATMENTS`. Roughness and notch of nitrided steel are not checked against the
         source.
     contact_limit, bending_limit
-        sigma_H lim and nominal sigma_F lim [Pa]; 1500 and 430 MPa are an example of case-hardened
-        steel of medium quality.
+        sigma_H lim and nominal sigma_F lim [Pa]: [iso_6336_5] or tests; 1500 and 430 MPa are an
+        example of case-hardened steel of medium quality.
     brinell
-        Hardness of a through-hardened wheel that a hard pinion work-hardens [-].
+        Of a through-hardened gear that a hard one work-hardens [-].
+    pitch_deviation, profile_deviation
+        f_pb, of bevel gears f_pt, and profile form f_f alpha [m].
+    flank_roughness, root_roughness
+        Mean peak to valley R_z [m].
+    bore
+        Inner diameter of the body [m].
+    rim_ratio
+        Thickness of the rim over tooth depth [-]; infinite: solid.
+    protuberance
+        s_pr of the tool less the grinding stock [m].
+    mean_stress
+        Y_M [-]: 1 for load on one flank, about 0.7 where both flanks bear load, as of an idler.
     slip_layer
-        rho' of the notch factor [m]; None: 3 um, nitrided 0.1 mm; through-hardened as strong steel.
-    some_pitting
-        Whether some pitting is allowed, which gives another life factor.
-    endurance
-        Whether best material and lubrication keep the life factors at 1 up to 1e10 cycles; not
-        checked against the source.
+        rho' of the notch factor [m]; None: 3 um, nitrided 0.1 mm, through-hardened as of 1000 MPa.
+    some_pitting, endurance
+        Whether some pitting is allowed; whether best material and oil keep the life factors at 1 up
+        to 1e10 cycles, which is not checked against the source.
     modulus, poisson_ratio, density
         [Pa], [-], [kg/m3].
 
     Examples
     --------
-    >>> steel = GearMaterial(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> steel.contact_life[0]  # cycles and factor on the limit
+    >>> gear = RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    >>> gear.contact_life[0]  # cycles, and factor on the limit
     (100000.0, 1.6)
     """
 
@@ -59,6 +69,14 @@ class GearMaterial(Checked):
     contact_limit: Annotated[float, Number("Pa", 1e8, 3e9, "1500 MPa is 1.5e9 Pa.")]
     bending_limit: Annotated[float, Number("Pa", 2e7, 1e9, "430 MPa is 4.3e8 Pa.")]
     brinell: Annotated[float | None, Number("1", 50.0, 800.0, "130 to 470 is usual.")] = None
+    pitch_deviation: Annotated[float, _DEVIATION] = 10e-6
+    profile_deviation: Annotated[float, _DEVIATION] = 12e-6
+    flank_roughness: Annotated[float, Number("m", 1e-7, 2e-4, "6 um is 6e-6 m.")] = 5e-6
+    root_roughness: Annotated[float, Number("m", 1e-7, 4e-4, "20 um is 2e-5 m.")] = 20e-6
+    bore: Annotated[float, Number("m", 0.0, 10.0, "Give metres, not millimetres.")] = 0.0
+    rim_ratio: float = math.inf
+    protuberance: Annotated[float, Number("m", 0.0, 5e-3, "Give metres, not millimetres.")] = 0.0
+    mean_stress: Annotated[float, Number("1", 0.3, 1.0, "0.7 of an idler.")] = 1.0
     slip_layer: Annotated[float | None, Number("m", 0.0, 1e-3, "3 um is 3e-6 m.")] = None
     some_pitting: bool = False
     endurance: bool = False
@@ -69,10 +87,15 @@ class GearMaterial(Checked):
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
         check_option("treatment", self.treatment, TREATMENTS)
-        if self.some_pitting and self.treatment.startswith("nitr"):
+        if self.some_pitting and self.nitrided:
             raise ParameterError(
                 f"some_pitting must be False with {self.treatment} steel: its thin layer does not "
                 "bear pits."
+            )
+        if not self.rim_ratio > 0.5:
+            raise ParameterError(
+                f"rim_ratio must be above 0.5, got {self.rim_ratio:g}. The standard ends there: "
+                "calculate a thinner rim by finite elements."
             )
 
     @property
@@ -94,51 +117,7 @@ class GearMaterial(Checked):
         return (*line[:-1], (line[-1][0], 1.0)) if self.endurance else line
 
 
-@dataclass(frozen=True, kw_only=True)
-class RatedGear(Checked):
-    """One gear of a rated pair.
-
-    Parameters
-    ----------
-    material
-        Its strength.
-    pitch_deviation, profile_deviation
-        f_pb, of bevel gears f_pt, and profile form f_f alpha [m].
-    flank_roughness, root_roughness
-        Mean peak to valley R_z [m].
-    bore
-        Inner diameter of the body [m].
-    rim_ratio
-        Thickness of the rim over tooth depth [-]; infinite: solid.
-    protuberance
-        s_pr of the tool less the grinding stock: what stays of the undercut [m].
-    mean_stress
-        Y_M [-]: 1 for load on one flank, about 0.7 where both flanks bear load, as of an idler.
-
-    Examples
-    --------
-    >>> steel = GearMaterial(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> RatedGear(material=steel, flank_roughness=3e-6).root_roughness
-    2e-05
-    """
-
-    material: GearMaterial
-    pitch_deviation: Annotated[float, _DEVIATION] = 10e-6
-    profile_deviation: Annotated[float, _DEVIATION] = 12e-6
-    flank_roughness: Annotated[float, Number("m", 1e-7, 2e-4, "6 um is 6e-6 m.")] = 5e-6
-    root_roughness: Annotated[float, Number("m", 1e-7, 4e-4, "20 um is 2e-5 m.")] = 20e-6
-    bore: Annotated[float, Number("m", 0.0, 10.0, "Give metres, not millimetres.")] = 0.0
-    rim_ratio: float = math.inf
-    protuberance: Annotated[float, Number("m", 0.0, 5e-3, "Give metres, not millimetres.")] = 0.0
-    mean_stress: Annotated[float, Number("1", 0.3, 1.0, "0.7 of an idler.")] = 1.0
-
-    def __post_init__(self) -> None:
-        Checked.__post_init__(self)
-        if not self.rim_ratio > 0.5:
-            raise ParameterError(
-                f"rim_ratio must be above 0.5, got {self.rim_ratio:g}. The standard ends there: "
-                "calculate a thinner rim by finite elements."
-            )
+Gears = tuple[RatedGear, RatedGear]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -170,47 +149,36 @@ class LoadFactors(Checked):
     transverse_root: Annotated[float | None, _FACTOR] = None
     face_root: Annotated[float | None, _FACTOR] = None
 
+    @property
+    def shock(self) -> float:
+        """K_A K_gamma [-]."""
+        return self.application * self.mesh_load
 
-@dataclass(frozen=True, kw_only=True)
-class StrengthRating:
+
+class StrengthRating(NamedTuple):
     """Stresses and strengths of pinion and gear against pitting and tooth breakage.
 
-    Parameters
-    ----------
-    contact_stress, bending_stress
-        sigma_H, sigma_F [Pa].
-    contact_lines, bending_lines
-        sigma_HG, sigma_FG over cycles [Pa], for `miner_sum`.
-    cycles
-        Of load on a tooth [-].
-    factors
-        All that they follow from, by the symbols of the standard, of the mesh or of pinion and
-        gear; in N, mm, MPa, um.
-    outside
-        Limits of the method that the gears exceed, and what is missing, in words.
-    standard
-        With edition and letter of the method. Calculated by its formulas as implemented here; check
-        a design against the standard.
+    Calculated by the formulas of the standard as implemented here; check a design against it.
     """
 
-    contact_stress: Pair
-    bending_stress: Pair
-    contact_lines: tuple[Line, Line]
-    bending_lines: tuple[Line, Line]
-    cycles: Pair
-    factors: Factors = field(repr=False)
-    outside: tuple[str, ...]
-    standard: str
+    contact_stress: Pair  # sigma_H [Pa]
+    bending_stress: Pair  # sigma_F [Pa]
+    contact_lines: tuple[Line, Line]  # sigma_HG over cycles [Pa], for `miner_sum`
+    bending_lines: tuple[Line, Line]  # sigma_FG likewise
+    cycles: Pair  # of load on a tooth [-]
+    factors: Factors  # all that they follow from, by the standard's symbols; N, mm, MPa, um
+    outside: tuple[str, ...]  # limits that the gears exceed, and what is missing, in words
+    standard: str  # with edition and letter of the method
 
     @property
     def contact_strength(self) -> Pair:
         """sigma_HG at the cycles [Pa]."""
-        return both(lambda line, n: float(strength(line, n)), self.contact_lines, self.cycles)
+        return both(strength, self.contact_lines, self.cycles)
 
     @property
     def bending_strength(self) -> Pair:
         """sigma_FG at the cycles [Pa]."""
-        return both(lambda line, n: float(strength(line, n)), self.bending_lines, self.cycles)
+        return both(strength, self.bending_lines, self.cycles)
 
     @property
     def contact_safety(self) -> Pair:
@@ -221,3 +189,17 @@ class StrengthRating:
     def bending_safety(self) -> Pair:
         """S_F [-]."""
         return both(lambda a, b: a / b, self.bending_strength, self.bending_stress)
+
+
+def check_load(torque: float, speed: float, cycles: Pair, oil_viscosity: float) -> None:
+    """Raise ParameterError where a load is none that can be rated."""
+    check_positive("pinion_torque", torque, "N.m", "Give its amount for either flank.")
+    check_positive("pinion_speed", speed, "rad/s", "1000 rpm is 104.7 rad/s.")
+    for name, n in zip(("pinion", "gear"), cycles, strict=True):
+        check_positive(f"cycles of the {name}", n, "", "60 times 1/min times hours.")
+    check_within("oil_viscosity", oil_viscosity, 1e-6, 5e-3, "m2/s", "220 mm2/s is 2.2e-4 m2/s.")
+
+
+def said(*limits: tuple[bool, str]) -> tuple[str, ...]:
+    """Return the texts of limits that do not hold."""
+    return tuple(text for holds, text in limits if not holds)

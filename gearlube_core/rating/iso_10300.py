@@ -10,8 +10,17 @@ import math
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.bevel_mesh import BevelMesh, VirtualGears
-from gearlube_core.rating.gears import MM, MPA, LoadFactors, Pair, StrengthRating, both
-from gearlube_core.rating.iso_6336 import check_load
+from gearlube_core.rating.gears import (
+    MM,
+    MPA,
+    Gears,
+    LoadFactors,
+    Pair,
+    StrengthRating,
+    both,
+    check_load,
+    said,
+)
 from gearlube_core.rating.load_factors import (
     dynamic_factor,
     effective_deviations,
@@ -19,13 +28,12 @@ from gearlube_core.rating.load_factors import (
     transverse_factor,
 )
 from gearlube_core.rating.strength import (
-    Gears,
     ToothForm,
-    VirtualTooth,
     bending_lines,
     contact_lines,
     elasticity_factor,
     life_of,
+    tooth_form,
 )
 
 _SINGLE, _MESH = 14.0, 20.0  # stiffnesses of teeth c', c_gamma [N/(mm um)]
@@ -60,10 +68,7 @@ def bevel_rating(
     >>> import gearlube as gl
     >>> blank = gl.HypoidGearFile.named("mohammadpour_2015").blank()
     >>> mesh = gl.BevelMesh.of_blank(blank)
-    >>> steel = gl.GearMaterial(
-    ...     treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.8e8
-    ... )
-    >>> gear = gl.RatedGear(material=steel)
+    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.8e8)
     >>> rating = gl.bevel_rating(
     ...     mesh, (gear, gear), gl.LoadFactors(face=1.65), pinion_torque=200.0, pinion_speed=125.7,
     ...     cycles=(5e7, 2e7), oil_viscosity=150e-6,
@@ -77,7 +82,7 @@ def bevel_rating(
     F_n = F_mt / (math.cos(alpha) * math.cos(spirals[0]))
     F_vmt = F_mt * math.cos(v.helix) / math.cos(spirals[0])
     K = _load_factors(mesh, gears, factors, F_vmt, pinion_speed)
-    shock = factors.application * factors.mesh_load
+    shock = factors.shock
     Z_MB, Z_E = _middle_factor(v), elasticity_factor(gears)
     sigma_H0 = math.sqrt(F_n / (v.line_length * v.radius)) * Z_MB * v.sharing * Z_E
     stress = sigma_H0 * math.sqrt(shock * K["K_v"] * K["K_Hb"] * K["K_Ha"]) / MPA
@@ -100,7 +105,6 @@ def bevel_rating(
     sigma_F0 = both(lambda Y_F, f: common * Y_F * f.Y_S, Y_Fa, forms)
     loads = shock * K["K_v"] * K["K_Fb"] * K["K_Fa"] / MPA
     lines_F, strength_F, notched = bending_lines(gears, both(lambda f: f.q_s, forms), v.module)
-    Z_NT, Y_NT = life_of(gears, cycles)
     return StrengthRating(
         contact_stress=(stress, stress),
         bending_stress=both(lambda s: s * loads, sigma_F0),
@@ -111,8 +115,8 @@ def bevel_rating(
             "F_mt": F_mt, "F_n": F_n, "eps_va": v.contact_ratio, "eps_vb": v.overlap_ratio,
             "b_vv": v.face_width, "l_bm": v.line_length, "rho_rel": v.radius, **K, "Z_MB": Z_MB,
             "Z_LS": v.sharing, "Z_E": Z_E, "sigma_H0": sigma_H0, **strength_H, "Z_Hyp": Z_Hyp,
-            "Z_KP": _Z_KP, "Z_NT": Z_NT, "Y_Fa": Y_Fa, "Y_Sa": both(lambda f: f.Y_S, forms), **Y,
-            "sigma_F0": sigma_F0, **strength_F, "Y_NT": Y_NT,
+            "Z_KP": _Z_KP, "Y_Fa": Y_Fa, "Y_Sa": both(lambda f: f.Y_S, forms), **Y,
+            "sigma_F0": sigma_F0, **strength_F, **life_of(gears, cycles),
         },
         outside=_outside(mesh, K["N"]) + missing + notched,
         standard="ISO 10300-1, -2, -3:2023, method B1",
@@ -122,7 +126,7 @@ def bevel_rating(
 def _outside(g: BevelMesh, N: float) -> tuple[str, ...]:
     v, spiral = g.virtual, math.degrees(0.5 * sum(g.spirals))
     angle, wide = math.degrees(g.effective_angle), g.face_width / g.cones.normal_module
-    limits = (
+    return said(
         (v.contact_ratio < 2.0, f"virtual contact ratio below 2, got {v.contact_ratio:.3f}"),
         (spiral <= 45.0, f"mean spiral angle up to 45 deg, got {spiral:.1f} deg"),
         (angle <= 30.0, f"effective pressure angle up to 30 deg, got {angle:.1f} deg"),
@@ -130,7 +134,6 @@ def _outside(g: BevelMesh, N: float) -> tuple[str, ...]:
         (N <= 0.75, f"speed up to 0.75 of resonance for a checked K_v, got {N:.2f}"),
         (g.flank == "drive", "drive flank for checked formulas, got the coast flank"),
     )
-    return tuple(text for holds, text in limits if not holds)
 
 
 def _load_factors(
@@ -138,10 +141,10 @@ def _load_factors(
 ) -> dict[str, float]:
     v, e = g.virtual, g.virtual.contact_ratio + g.virtual.overlap_ratio
     f_p = effective_deviations(gears)[0]
-    w = F_vmt * given.application * given.mesh_load / v.face_width
+    w = F_vmt * given.shock / v.face_width
     cos = math.cos(g.effective_angle)  # mean of both flanks
     masses = both(
-        lambda one, d: math.pi / 8.0 * 1e-9 * one.material.density * (d / cos) ** 2,
+        lambda one, d: math.pi / 8.0 * 1e-9 * one.density * (d / cos) ** 2,
         gears, g.diameters,
     )  # fmt: skip
     n_E1 = resonance_speed(g.cones.pinion_teeth, masses, _MESH)
@@ -208,19 +211,10 @@ def _tooth_form(g: BevelMesh, k: int) -> ToothForm:
     v, alpha, rho = g.virtual, g.effective_angle, g.tool_radius[k]
     x_s, x_h = g.thickness_shift[k], g.addendum_shift * (1.0 if k == 0 else -1.0)
     z_n = v.teeth[k] / (math.cos(v.base_helix) ** 2 * math.cos(v.helix))
-    E = (
-        math.pi / 4.0
-        - x_s
-        - _TOOL * math.tan(alpha)
-        - rho * (1.0 - math.sin(alpha)) / math.cos(alpha)
-    )
-    return VirtualTooth(
-        teeth=z_n,
-        pressure_angle=alpha,
-        E=E,
-        G=rho - _TOOL + x_h,
-        tool_radius=rho,
+    E = math.pi / 4.0 - x_s - _TOOL * math.tan(alpha)
+    E -= rho * (1.0 - math.sin(alpha)) / math.cos(alpha)
+    return tooth_form(
+        z_n, alpha, E, rho - _TOOL + x_h, rho,
         tip_diameter=z_n + 2.0 * MM * g.addendum[k] / v.module,
-        contact_ratio=1.0,
         half_angle=(math.pi / 2.0 + 2.0 * (x_h * math.tan(alpha) + x_s)) / z_n,
-    ).form()
+    )  # fmt: skip

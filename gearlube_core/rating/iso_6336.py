@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.checks import check_option, check_positive, check_within
+from gearlube_core.checks import check_option
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
     IsoStiffness,
     iso_stiffness,
@@ -20,11 +20,14 @@ from gearlube_core.rating.gears import (
     MM,
     MPA,
     UM,
+    Gears,
     LoadFactors,
     Pair,
     RatedGear,
     StrengthRating,
     both,
+    check_load,
+    said,
 )
 from gearlube_core.rating.load_factors import (
     dynamic_factor,
@@ -34,25 +37,15 @@ from gearlube_core.rating.load_factors import (
     transverse_factor,
 )
 from gearlube_core.rating.strength import (
-    Gears,
     ToothForm,
-    VirtualTooth,
     bending_lines,
     contact_lines,
     elasticity_factor,
     life_of,
+    tooth_form,
 )
 
 EDITIONS = ("2006", "2019")
-
-
-def check_load(torque: float, speed: float, cycles: Pair, oil_viscosity: float) -> None:
-    """Raise ParameterError where a load is none that can be rated."""
-    check_positive("pinion_torque", torque, "N.m", "Give its amount for either flank.")
-    check_positive("pinion_speed", speed, "rad/s", "1000 rpm is 104.7 rad/s.")
-    for name, n in zip(("pinion", "gear"), cycles, strict=True):
-        check_positive(f"cycles of the {name}", n, "", "60 times 1/min times hours.")
-    check_within("oil_viscosity", oil_viscosity, 1e-6, 5e-3, "m2/s", "220 mm2/s is 2.2e-4 m2/s.")
 
 
 def cylindrical_rating(
@@ -111,10 +104,7 @@ def cylindrical_rating(
     --------
     >>> import gearlube as gl
     >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> steel = gl.GearMaterial(
-    ...     treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8
-    ... )
-    >>> gear = gl.RatedGear(material=steel)
+    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
     >>> rating = gl.cylindrical_rating(
     ...     pair, (gear, gear), gl.LoadFactors(face=1.1), pinion_torque=300.0, pinion_speed=200.0,
     ...     cycles=(5e7, 5e7), oil_viscosity=100e-6,
@@ -128,9 +118,9 @@ def cylindrical_rating(
                   MM * pair.normal_module)  # fmt: skip
     F_t = 2e3 * pinion_torque / d1
     v = pinion_speed * pair.pinion_reference_radius
-    shock = factors.application * factors.mesh_load
+    shock = factors.shock
     w = F_t * shock / b
-    moduli = both(lambda g: g.material.modulus, gears)
+    moduli = both(lambda g: g.modulus, gears)
     iso = iso_stiffness(pair, line_load=1e3 * w, modulus=moduli, blank_factor=blank_factor)
     relief = run_in_relief(gears) if tip_relief is None else UM * tip_relief
     Z, Z_BD = _contact_factors(pair, edition, modified)
@@ -151,7 +141,6 @@ def cylindrical_rating(
     sigma_F0 = both(lambda f, form, rim: common * f * form.Y_S * rim, Y_F, forms, Y_B)
     loads = shock * K["K_v"] * K["K_Fb"] * K["K_Fa"] / MPA
     lines_F, strength_F, notched = bending_lines(gears, both(lambda f: f.q_s, forms), m_n)
-    Z_NT, Y_NT = life_of(gears, cycles)
     return StrengthRating(
         contact_stress=both(lambda Z_B: Z_B * stress, Z_BD),
         bending_stress=both(lambda s: s * loads, sigma_F0),
@@ -160,11 +149,11 @@ def cylindrical_rating(
         cycles=cycles,
         factors={
             "F_t": F_t, "v": v, "c'": 1e-9 * iso.single, "c_ga": 1e-9 * iso.mesh, **K, **Z,
-            "Z_BD": Z_BD, "Z_E": Z_E, "sigma_H0": sigma_H0, **strength_H, "Z_NT": Z_NT, **Y,
+            "Z_BD": Z_BD, "Z_E": Z_E, "sigma_H0": sigma_H0, **strength_H, **Y,
             "Y_F": Y_F, "Y_S": both(lambda f: f.Y_S, forms), "q_s": both(lambda f: f.q_s, forms),
             "s_Fn": both(lambda f: f.s_Fn, forms), "h_Fe": both(lambda f: f.h_Fe, forms),
             "rho_F": both(lambda f: f.rho_F, forms), "Y_B": Y_B, "sigma_F0": sigma_F0,
-            **strength_F, "Y_NT": Y_NT,
+            **strength_F, **life_of(gears, cycles),
         },
         outside=_outside(pair, v) + iso.outside + missing + notched,
         standard=f"ISO 6336-1, -2, -3:{edition}, method B",
@@ -173,12 +162,11 @@ def cylindrical_rating(
 
 def _outside(pair: HelicalPair, v: float) -> tuple[str, ...]:
     eps, helix = pair.transverse_contact_ratio, math.degrees(pair.helix_angle)
-    limits = (
+    return said(
         (1.0 < eps < 2.5, f"transverse contact ratio within 1 to 2.5, got {eps:.3f}"),
         (helix <= 30.0, f"helix angle up to 30 deg, got {helix:.1f} deg"),
         (v <= 60.0, f"pitch line speed up to 60 m/s, got {v:.1f} m/s"),
     )
-    return tuple(text for holds, text in limits if not holds)
 
 
 def _base_radii(pair: HelicalPair) -> Pair:
@@ -200,7 +188,7 @@ def _load_factors(
             MM * (pair.gear_tip_radius + pair.gear_root_radius))  # fmt: skip
     size = math.pi / 8.0 * mean[0] ** 4 / (2.0 * MM * pair.pinion_base_radius) ** 2
     masses = both(
-        lambda g, d, u: 1e-9 * g.material.density * (1.0 - (MM * g.bore / d) ** 4) * size * u * u,
+        lambda g, d, u: 1e-9 * g.density * (1.0 - (MM * g.bore / d) ** 4) * size * u * u,
         gears, mean, (1.0, pair.ratio),
     )  # fmt: skip
     n_E1 = resonance_speed(pair.pinion_teeth, masses, c_mesh)
@@ -275,13 +263,9 @@ def _tooth_form(pair: HelicalPair, gear: RatedGear, member: int) -> ToothForm:
     left = gear.protuberance / pair.normal_module
     E = math.pi / 4.0 - h_fP * math.tan(alpha)
     E += (left - (1.0 - math.sin(alpha)) * rho) / math.cos(alpha)
-    return VirtualTooth(
-        teeth=z_n,
-        pressure_angle=alpha,
-        E=E,
-        G=rho - h_fP + x,
-        tool_radius=rho,
+    return tooth_form(
+        z_n, alpha, E, rho - h_fP + x, rho,
         tip_diameter=z_n + 2.0 * (tip - reference) / pair.normal_module,
-        contact_ratio=pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2,
         half_angle=(math.pi / 2.0 + 2.0 * x * math.tan(alpha)) / z_n,
-    ).form()
+        contact_ratio=pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2,
+    )  # fmt: skip

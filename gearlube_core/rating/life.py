@@ -59,18 +59,18 @@ def strength_line(factors: Line, limit: float, influence: float) -> Line:
     return ((n, limit * static), *((m, limit * influence * factor) for m, factor in others))
 
 
-def strength(line: Line, cycles: float | Array) -> Array:
+def strength(line: Line, cycles: float) -> float:
     """Return the strength, or the life factor, at a number of cycles; constant beyond both ends.
 
     Source: [iso_6336_2] for Z_NT, [iso_6336_3] for Y_NT.
 
     Examples
     --------
-    >>> round(float(strength(PITTING["case_hardened"], 1.080e9)), 3)
+    >>> round(strength(PITTING["case_hardened"], 1.080e9), 3)
     0.91
     """
     n, values = np.log(np.array(line)).T
-    return np.exp(np.interp(np.log(cycles), n, values))
+    return math.exp(np.interp(math.log(cycles), n, values))
 
 
 def cycles_to_failure(line: Line, stress: float | Array) -> Array:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gearlube_core.checks import check_option, check_positive, check_within
-from gearlube_core.rating.gears import MPA, UM, RatedGear
+from gearlube_core.rating.gears import MPA, UM, Gears, RatedGear
 
 _CONTACT_CHECKS = {
     "full_load": (1.0, 1.0, 1.0),
@@ -17,12 +17,12 @@ _RUN_IN_SHARE = 0.075  # of a deviation that running-in takes off hard flanks, a
 
 def run_in(deviation: float, gear: RatedGear) -> float:
     """Return what running-in leaves of a pitch or profile deviation [um]."""
-    if gear.material.treatment == "through_hardened":
-        return deviation * (1.0 - min(160.0 / (MPA * gear.material.contact_limit), 1.0))
+    if gear.treatment == "through_hardened":
+        return deviation * (1.0 - min(160.0 / (MPA * gear.contact_limit), 1.0))
     return deviation - min(_RUN_IN_SHARE * deviation, 3.0)
 
 
-def effective_deviations(gears: tuple[RatedGear, RatedGear]) -> tuple[float, float, float]:
+def effective_deviations(gears: Gears) -> tuple[float, float, float]:
     """Return what counts of the worse pitch and profile, and of both for K_H alpha, run in [um].
 
     For K_H alpha the larger of both deviations counts, less what runs in of the pitch.
@@ -34,9 +34,9 @@ def effective_deviations(gears: tuple[RatedGear, RatedGear]) -> tuple[float, flo
     return left, run_in(f_f, profile), max(f_p, f_f) - (f_p - left)
 
 
-def run_in_relief(gears: tuple[RatedGear, RatedGear]) -> float:
+def run_in_relief(gears: Gears) -> float:
     """Return C_ay, the tip relief that running-in makes [um], the mean of both members."""
-    limits = [MPA * one.material.contact_limit for one in gears]
+    limits = [MPA * one.contact_limit for one in gears]
     return 0.5 * sum((limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5 for limit in limits)
 
 

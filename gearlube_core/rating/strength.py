@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.rating.gears import MM, MPA, UM, Factors, Pair, RatedGear, both
+from gearlube_core.rating.gears import MM, MPA, UM, Factors, Gears, Pair, RatedGear, both, said
 from gearlube_core.rating.life import Line, strength, strength_line
 
 _LAYERS = {"nitrided": 0.1005, "through_hardened": 0.0014}  # rho' [mm]
@@ -18,12 +17,11 @@ _HARD_LAYER = 0.0030
 _ROUGH, _ROUGH_NITRIDED = (1.674, 0.529, 0.1), (4.299, 3.259, 0.0058)
 _SIZE = {"through_hardened": (1.03, 0.006, 0.85)}  # Y_X: at 0, per mm of module, least
 _HARD_SIZE = (1.05, 0.01, 0.80)
-Gears = tuple[RatedGear, RatedGear]
 
 
 def elasticity_factor(gears: Gears) -> float:
     """Return Z_E [MPa^0.5]."""
-    softness = sum((1.0 - g.material.poisson_ratio**2) / (MPA * g.material.modulus) for g in gears)
+    softness = sum((1.0 - g.poisson_ratio**2) / (MPA * g.modulus) for g in gears)
     return math.sqrt(1.0 / (math.pi * softness))
 
 
@@ -32,25 +30,18 @@ def contact_lines(
 ) -> tuple[tuple[Line, Line], Factors, tuple[str, ...]]:
     """Return sigma_HG over cycles [Pa], its factors, and what is missing.
 
+    At few cycles Z_L, Z_v, Z_R and Z_W fade out to 1; Z_X is 1. Source: [iso_6336_2].
+
     Parameters
     ----------
-    gears
-        Pinion and gear.
-    oil_viscosity
-        At 40 degC [m2/s].
-    speed
-        Of Z_v [m/s].
+    oil_viscosity, speed
+        At 40 degC [m2/s]; of Z_v [m/s].
     radius
         Relative radius of curvature at the pitch point [mm].
     further
         Product of factors that the standard has besides [-].
-
-    Notes
-    -----
-    At few cycles Z_L, Z_v, Z_R and Z_W fade out to 1. Z_X is 1.
-    Source: [iso_6336_2].
     """
-    softer = MPA * min(g.material.contact_limit for g in gears)
+    softer = MPA * min(g.contact_limit for g in gears)
     C = min(max(softer / 4375.0 + 0.6357, 0.83), 0.91)
     Z_L = C + 4.0 * (1.0 - C) / (1.2 + 134.0 / (1e6 * oil_viscosity)) ** 2
     Z_v = C + 0.02 + 2.0 * (0.98 - C) / math.sqrt(0.8 + 32.0 / speed)
@@ -60,26 +51,28 @@ def contact_lines(
     film = Z_L * Z_v * Z_R
 
     def line(gear: RatedGear, hardened: float) -> Line:
-        limit = gear.material.contact_limit * further
-        return strength_line(gear.material.contact_life, limit, film * hardened)
+        limit = gear.contact_limit * further
+        return strength_line(gear.contact_life, limit, film * hardened)
 
     lines = line(gears[0], Z_W[0]), line(gears[1], Z_W[1])
     return lines, {"Z_L": Z_L, "Z_v": Z_v, "Z_R": Z_R, "Z_W": Z_W}, missing
 
 
-def life_of(gears: Gears, cycles: Pair) -> tuple[Pair, Pair]:
+def life_of(gears: Gears, cycles: Pair) -> Factors:
     """Return Z_NT and Y_NT of both members [-]."""
-    contact = both(lambda g, n: float(strength(g.material.contact_life, n)), gears, cycles)
-    return contact, both(lambda g, n: float(strength(g.material.bending_life, n)), gears, cycles)
+    return {
+        "Z_NT": both(lambda g, n: strength(g.contact_life, n), gears, cycles),
+        "Y_NT": both(lambda g, n: strength(g.bending_life, n), gears, cycles),
+    }
 
 
 def _work_hardening(gears: Gears, radius: float) -> tuple[Pair, tuple[str, ...]]:
     """Return Z_W of both members: the soft one gains where the other is hard."""
-    soft = [g.material.treatment == "through_hardened" for g in gears]
+    soft = [g.treatment == "through_hardened" for g in gears]
     if soft[0] == soft[1]:
         return (1.0, 1.0), ()
     which = soft.index(True)
-    hardness, hard = gears[which].material.brinell, gears[1 - which]
+    hardness, hard = gears[which].brinell, gears[1 - which]
     if hardness is None:
         return (1.0, 1.0), (
             "brinell of the through-hardened gear is needed for the work hardening factor, got "
@@ -103,69 +96,62 @@ class ToothForm(NamedTuple):
     rho_F: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class VirtualTooth:
-    """Spur tooth in the normal section, of which the root is calculated; in normal modules.
+def tooth_form(
+    z: float,
+    alpha: float,
+    E: float,
+    G: float,
+    rho: float,
+    *,
+    tip_diameter: float,
+    half_angle: float,
+    contact_ratio: float = 1.0,
+) -> ToothForm:
+    """Return the form of a spur tooth in the normal section; lengths in normal modules.
 
     Parameters
     ----------
-    teeth, pressure_angle
-        z_n, alpha_n [-], [rad].
-    E, G
-        Auxiliary sizes of the tool.
-    tool_radius
-        rho_fP.
+    z, alpha
+        Virtual teeth and pressure angle [-], [rad].
+    E, G, rho
+        Auxiliary sizes of the tool and its tip radius.
     tip_diameter
         d_an.
-    contact_ratio
-        epsilon_alpha n, for load at the outer point of single contact; 1: at the tip.
     half_angle
         Half of the angle of the tooth at its reference circle [rad].
+    contact_ratio
+        epsilon_alpha n, for load at the outer point of single contact; 1: at the tip.
+
+    Raises
+    ------
+    ParameterError
+        The root has no tangent at 30 degrees.
+
+    Notes
+    -----
+    Source: [iso_6336_3], [iso_10300_3].
     """
-
-    teeth: float
-    pressure_angle: float
-    E: float
-    G: float
-    tool_radius: float
-    tip_diameter: float
-    contact_ratio: float
-    half_angle: float
-
-    def form(self) -> ToothForm:
-        """Return Y_F, Y_S and what they are from.
-
-        Raises
-        ------
-        ParameterError
-            The root has no tangent at 30 degrees.
-
-        Notes
-        -----
-        Source: [iso_6336_3], [iso_10300_3].
-        """
-        z, alpha, G, rho = self.teeth, self.pressure_angle, self.G, self.tool_radius
-        H = 2.0 / z * (math.pi / 2.0 - self.E) - math.pi / 3.0
-        try:
-            th = brentq(lambda t: t - 2.0 * G / z * math.tan(t) + H, 0.0, 0.49 * math.pi)
-        except ValueError as error:
-            raise ParameterError(
-                f"The root of a tooth must have a 30 degree tangent, got none with {z:.1f} virtual "
-                "teeth. Check teeth, profile shift and tool: the formulas end here."
-            ) from error
-        s_Fn = z * math.sin(math.pi / 3.0 - th) + math.sqrt(3.0) * (G / math.cos(th) - rho)
-        rho_F = rho + 2.0 * G * G / (math.cos(th) * (z * math.cos(th) ** 2 - 2.0 * G))
-        d_b, step = z * math.cos(alpha), math.pi * math.cos(alpha) * (self.contact_ratio - 1.0)
-        d_e = 2.0 * math.hypot(0.5 * math.sqrt(self.tip_diameter**2 - d_b**2) - step, 0.5 * d_b)
-        a_e = math.acos(min(d_b / d_e, 1.0))
-        turn = self.half_angle + math.tan(alpha) - alpha - math.tan(a_e) + a_e
-        a_F = a_e - turn
-        arm = (math.cos(turn) - math.sin(turn) * math.tan(a_F)) * d_e
-        h = 0.5 * (arm - z * math.cos(math.pi / 3.0 - th) - G / math.cos(th) + rho)
-        Y_F = 6.0 * h * math.cos(a_F) / (s_Fn**2 * math.cos(alpha))
-        L, q_s = s_Fn / h, s_Fn / (2.0 * rho_F)
-        Y_S = (1.2 + 0.13 * L) * min(max(q_s, 1.0), 8.0) ** (1.0 / (1.21 + 2.3 / L))
-        return ToothForm(Y_F, Y_S, q_s, s_Fn, h, rho_F)
+    H = 2.0 / z * (math.pi / 2.0 - E) - math.pi / 3.0
+    try:
+        th = brentq(lambda t: t - 2.0 * G / z * math.tan(t) + H, 0.0, 0.49 * math.pi)
+    except ValueError as error:
+        raise ParameterError(
+            f"The root of a tooth must have a 30 degree tangent, got none with {z:.1f} virtual "
+            "teeth. Check teeth, profile shift and tool: the formulas end here."
+        ) from error
+    s_Fn = z * math.sin(math.pi / 3.0 - th) + math.sqrt(3.0) * (G / math.cos(th) - rho)
+    rho_F = rho + 2.0 * G * G / (math.cos(th) * (z * math.cos(th) ** 2 - 2.0 * G))
+    d_b, step = z * math.cos(alpha), math.pi * math.cos(alpha) * (contact_ratio - 1.0)
+    d_e = 2.0 * math.hypot(0.5 * math.sqrt(tip_diameter**2 - d_b**2) - step, 0.5 * d_b)
+    a_e = math.acos(min(d_b / d_e, 1.0))
+    turn = half_angle + math.tan(alpha) - alpha - math.tan(a_e) + a_e
+    a_F = a_e - turn
+    arm = (math.cos(turn) - math.sin(turn) * math.tan(a_F)) * d_e
+    h = 0.5 * (arm - z * math.cos(math.pi / 3.0 - th) - G / math.cos(th) + rho)
+    Y_F = 6.0 * h * math.cos(a_F) / (s_Fn**2 * math.cos(alpha))
+    L, q_s = s_Fn / h, s_Fn / (2.0 * rho_F)
+    Y_S = (1.2 + 0.13 * L) * min(max(q_s, 1.0), 8.0) ** (1.0 / (1.21 + 2.3 / L))
+    return ToothForm(Y_F, Y_S, q_s, s_Fn, h, rho_F)
 
 
 def bending_lines(
@@ -173,47 +159,35 @@ def bending_lines(
 ) -> tuple[tuple[Line, Line], Factors, tuple[str, ...]]:
     """Return sigma_FG over cycles [Pa], its factors, and where they leave their range.
 
-    Parameters
-    ----------
-    gears
-        Pinion and gear.
-    q_s
-        Notch parameter of both [-].
-    module
-        Normal module [mm].
-
-    Notes
-    -----
-    All factors count at any number of cycles; this is on the safe side where they are below 1.
-    Source: [iso_6336_3].
+    All factors count at any number of cycles, on the safe side where they are below 1; q_s is the
+    notch parameter, the module [mm]. Source: [iso_6336_3].
     """
 
     def notch(gear: RatedGear, q: float) -> float:
-        material = gear.material
-        layer = _LAYERS.get("nitrided" if material.nitrided else material.treatment, _HARD_LAYER)
-        rho = layer if material.slip_layer is None else MM * material.slip_layer
+        layer = _LAYERS.get("nitrided" if gear.nitrided else gear.treatment, _HARD_LAYER)
+        rho = layer if gear.slip_layer is None else MM * gear.slip_layer
         return (1.0 + math.sqrt(0.2 * rho * (1.0 + 2.0 * q))) / (1.0 + math.sqrt(1.2 * rho))
 
     def rough(gear: RatedGear, _: float) -> float:
-        most, less, power = _ROUGH_NITRIDED if gear.material.nitrided else _ROUGH
+        most, less, power = _ROUGH_NITRIDED if gear.nitrided else _ROUGH
         return most - less * (min(max(UM * gear.root_roughness, 1.0), 40.0) + 1.0) ** power
 
     def size(gear: RatedGear, _: float) -> float:
-        most, slope, least = _SIZE.get(gear.material.treatment, _HARD_SIZE)
+        most, slope, least = _SIZE.get(gear.treatment, _HARD_SIZE)
         return min(max(most - slope * module, least), 1.0)
 
     Y_drelT, Y_RrelT, Y_X = (both(one, gears, q_s) for one in (notch, rough, size))
     Y_M = gears[0].mean_stress, gears[1].mean_stress
     lines = []
     for gear, *factors in zip(gears, Y_drelT, Y_RrelT, Y_X, Y_M, strict=True):
-        limit = 2.0 * gear.material.bending_limit * math.prod(factors)
-        lines.append(tuple((n, limit * life) for n, life in gear.material.bending_life))
-    outside = tuple(
-        f"notch parameter q_s within 1 to 8, got {q:.2f}" for q in q_s if not 1.0 <= q < 8.0
-    ) + tuple(
-        f"root roughness R_z up to 40 um, got {UM * g.root_roughness:.0f} um"
-        for g in gears
-        if UM * g.root_roughness > 40.0
+        limit = 2.0 * gear.bending_limit * math.prod(factors)
+        lines.append(tuple((n, limit * life) for n, life in gear.bending_life))
+    outside = said(
+        *((1.0 <= q < 8.0, f"notch parameter q_s within 1 to 8, got {q:.2f}") for q in q_s),
+        *(
+            (R_z <= 40.0, f"root roughness R_z up to 40 um, got {R_z:.0f} um")
+            for R_z in both(lambda g: UM * g.root_roughness, gears)
+        ),
     )
     found: Factors = {"Y_drelT": Y_drelT, "Y_RrelT": Y_RrelT, "Y_X": Y_X, "Y_M": Y_M}
     return (lines[0], lines[1]), found, outside

@@ -10,12 +10,10 @@ import pytest
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.rating.bevel_mesh import BevelMesh
-from gearlube_core.rating.gears import GearMaterial, LoadFactors, RatedGear, StrengthRating
+from gearlube_core.rating.gears import LoadFactors, RatedGear, StrengthRating
 from gearlube_core.rating.iso_10300 import bevel_rating
 
-CASE = GearMaterial(
-    treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.8e8, modulus=210e9
-)
+CASE = RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.8e8, modulus=210e9)
 MM = 1e-3
 
 
@@ -63,8 +61,8 @@ HYPOID = BevelMesh(
 
 
 def rated(mesh: BevelMesh, torque: float, pitch_deviation: float, **changes) -> StrengthRating:
-    gear = RatedGear(
-        material=CASE, pitch_deviation=pitch_deviation, flank_roughness=8e-6, root_roughness=16e-6
+    gear = replace(
+        CASE, pitch_deviation=pitch_deviation, flank_roughness=8e-6, root_roughness=16e-6
     )
     return bevel_rating(
         **{

@@ -9,12 +9,12 @@ import pytest
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.rating.gears import GearMaterial, LoadFactors, RatedGear, StrengthRating
+from gearlube_core.rating.gears import LoadFactors, RatedGear, StrengthRating
 from gearlube_core.rating.iso_6336 import cylindrical_rating
 from gearlube_core.rating.life import miner_sum
 
-CASE = GearMaterial(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-SOFT = GearMaterial(
+CASE = RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+SOFT = RatedGear(
     treatment="through_hardened", contact_limit=0.7e9, bending_limit=2.9e8, brinell=240.0
 )
 
@@ -47,7 +47,7 @@ def helical(
 @pytest.fixture(scope="module")
 def example_1() -> StrengthRating:
     """ISO/TR 6336-30:2017, example 1; its dynamic, face and transverse factors are given."""
-    gear = RatedGear(material=CASE, flank_roughness=6e-6)
+    gear = replace(CASE, flank_roughness=6e-6)
     turns = 60.0 * 360.0 * 50_000.0
     return cylindrical_rating(
         helical((17, 103), 8.0, 15.8, (0.145, 0.0), 500.0, 100.0, (159.66, 872.35), 1.4, 0.39),
@@ -83,8 +83,8 @@ STAGE_3 = helical(
     (24, 95), 14.0, 10.0, (0.48, 0.6691), 861.0, 360.0, (380.747, 1395.376), 1.25, 0.38
 )
 STAGE_3_GEARS = tuple(
-    RatedGear(
-        material=CASE, pitch_deviation=pitch, profile_deviation=profile, flank_roughness=4.8e-6,
+    replace(
+        CASE, pitch_deviation=pitch, profile_deviation=profile, flank_roughness=4.8e-6,
         root_roughness=20e-6, bore=bore,
     )
     for pitch, profile, bore in ((13.1e-6, 18e-6, 179.10e-3), (15.9e-6, 22e-6, 1193.32e-3))
@@ -159,9 +159,6 @@ def rated_fzg(gears: tuple[RatedGear, RatedGear], **changes) -> StrengthRating:
     )  # fmt: skip
 
 
-HARD_GEAR, SOFT_GEAR = RatedGear(material=CASE), RatedGear(material=SOFT)
-
-
 @pytest.mark.parametrize(
     ("name", "printed"),
     [
@@ -170,14 +167,14 @@ HARD_GEAR, SOFT_GEAR = RatedGear(material=CASE), RatedGear(material=SOFT)
     ],
 )  # fmt: skip
 def test_spur_gears_have_the_form_that_another_program_prints(name, printed):
-    assert rated_fzg((HARD_GEAR, HARD_GEAR)).factors[name] == pytest.approx(printed, rel=2e-3)
+    assert rated_fzg((CASE, CASE)).factors[name] == pytest.approx(printed, rel=2e-3)
 
 
 def test_a_hard_pinion_hardens_a_soft_wheel_and_missing_hardness_is_said():
-    gears = replace(HARD_GEAR, flank_roughness=1e-6), SOFT_GEAR
+    gears = replace(CASE, flank_roughness=1e-6), SOFT
     rated = rated_fzg(gears)
     assert rated.factors["Z_W"] == (1.0, pytest.approx(1.135, abs=5e-4))  # HB 240, smooth
-    none = replace(SOFT_GEAR, material=replace(SOFT, brinell=None))
+    none = replace(SOFT, brinell=None)
     blind = rated_fzg((gears[0], none))
     assert blind.factors["Z_W"] == (1.0, 1.0)
     assert any("brinell" in one and "got none" in one for one in blind.outside)
@@ -193,7 +190,7 @@ def test_overlap_leads_from_spur_to_helical_gears_without_a_step():
             (16, 24), 4.5, helix, (0.2, 0.2), 0.5 * sum(d) + 1.7, face,
             (d[0] + 10.4, d[1] + 10.4), 1.25, 0.3,
         )  # fmt: skip
-        return rated_fzg((HARD_GEAR, HARD_GEAR), pair=pair).factors
+        return rated_fzg((CASE, CASE), pair=pair).factors
 
     below, at = factors(0.9999), factors(1.0001)
     for name in ("Z_eps", "Z_BD", "Y_beta", "sigma_H0", "sigma_F0"):
@@ -203,26 +200,26 @@ def test_overlap_leads_from_spur_to_helical_gears_without_a_step():
 
 
 def test_damage_is_1_at_the_cycles_where_safety_is_1():
-    rated = rated_fzg((HARD_GEAR, HARD_GEAR))
+    rated = rated_fzg((CASE, CASE))
     line, strength = rated.contact_lines[0], rated.contact_strength[0]
     assert float(miner_sum(line, strength, rated.cycles[0])) == pytest.approx(1.0)
 
 
 def test_idlers_thin_rims_and_protuberance_weaken_the_root():
-    plain = rated_fzg((HARD_GEAR, HARD_GEAR))
-    idler = rated_fzg((HARD_GEAR, replace(HARD_GEAR, mean_stress=0.7)))
+    plain = rated_fzg((CASE, CASE))
+    idler = rated_fzg((CASE, replace(CASE, mean_stress=0.7)))
     assert idler.bending_strength[1] == pytest.approx(0.7 * plain.bending_strength[1])
-    thin = rated_fzg((HARD_GEAR, replace(HARD_GEAR, rim_ratio=0.8)))
+    thin = rated_fzg((CASE, replace(CASE, rim_ratio=0.8)))
     assert thin.bending_stress[1] == pytest.approx(
         plain.bending_stress[1] * 1.6 * math.log(2.242 / 0.8)
     )
     assert thin.bending_stress[0] == plain.bending_stress[0]
     with pytest.raises(ParameterError, match=r"rim_ratio must be above 0\.5, got 0\.4"):
-        replace(HARD_GEAR, rim_ratio=0.4)
+        replace(CASE, rim_ratio=0.4)
 
 
 def test_edition_2019_is_named_and_differs_for_helical_gears_only():
-    spur = [rated_fzg((HARD_GEAR, HARD_GEAR), edition=e) for e in ("2006", "2019")]
+    spur = [rated_fzg((CASE, CASE), edition=e) for e in ("2006", "2019")]
     assert spur[0].contact_stress == spur[1].contact_stress
     assert spur[0].bending_stress == spur[1].bending_stress
     helix = [rated_stage_3(edition=e) for e in ("2006", "2019")]
@@ -244,7 +241,7 @@ def test_edition_2019_is_named_and_differs_for_helical_gears_only():
 )
 def test_a_load_that_cannot_be_rated_is_refused(change, words):
     with pytest.raises(ParameterError, match=words):
-        rated_fzg((HARD_GEAR, HARD_GEAR), **change)
+        rated_fzg((CASE, CASE), **change)
 
 
 @pytest.mark.parametrize(
