@@ -218,6 +218,9 @@ from gearlube_core.rating.bearing_life import bearing_life as bearing_life
 from gearlube_core.rating.bearing_life import life_of_spectrum as life_of_spectrum
 from gearlube_core.rating.life import miner_sum as miner_sum
 from gearlube_core.rating.life import torque_factor as torque_factor
+from gearlube_core.rating.spectrum import duty_bins as duty_bins
+from gearlube_core.rating.spectrum import spectrum_damage as spectrum_damage
+from gearlube_core.rating.spectrum import equivalent_torque as equivalent_torque
 
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
