@@ -40,8 +40,8 @@ class RatedGear(Checked):
         Of a through-hardened gear that a hard one work-hardens [-].
     pitch_deviation, profile_deviation
         f_pb, of bevel gears f_pt, and profile form f_f alpha [m].
-    flank_roughness, root_roughness
-        Mean peak to valley R_z [m].
+    flank_roughness, root_roughness, arithmetic_roughness
+        Mean peak to valley R_z [m], and R_a of the flank; None: a sixth of its R_z.
     bore
         Inner diameter of the body [m].
     rim_ratio
@@ -73,6 +73,9 @@ class RatedGear(Checked):
     profile_deviation: Annotated[float, _DEVIATION] = 12e-6
     flank_roughness: Annotated[float, Number("m", 1e-7, 2e-4, "6 um is 6e-6 m.")] = 5e-6
     root_roughness: Annotated[float, Number("m", 1e-7, 4e-4, "20 um is 2e-5 m.")] = 20e-6
+    arithmetic_roughness: Annotated[float | None, Number("m", 1e-8, 3e-5, "0.6 um is 6e-7 m.")] = (
+        None
+    )
     bore: Annotated[float, Number("m", 0.0, 10.0, "Give metres, not millimetres.")] = 0.0
     rim_ratio: float = math.inf
     protuberance: Annotated[float, Number("m", 0.0, 5e-3, "Give metres, not millimetres.")] = 0.0
@@ -102,6 +105,12 @@ class RatedGear(Checked):
     def nitrided(self) -> bool:
         """Whether its layer is nitrided or nitrocarburised."""
         return self.treatment.startswith("nitr")
+
+    @property
+    def R_a(self) -> float:
+        """Of the flank [um]."""
+        given = self.arithmetic_roughness
+        return UM * (self.flank_roughness / 6.0 if given is None else given)
 
     @property
     def contact_life(self) -> Line:
