@@ -151,7 +151,12 @@ QUENCHED_42CRMO4 = FatigueLimits(bending=398e6, torsion=260e6, name="42CrMo4, qu
 
 
 def dang_van_number(
-    history: Array, limits: FatigueLimits, residual: Array | None = None, *, tolerance: float = 1e-3
+    history: Array,
+    limits: FatigueLimits,
+    residual: Array | None = None,
+    *,
+    compression: bool = True,
+    tolerance: float = 1e-3,
 ) -> Array:
     """Return the fatigue number of Dang Van; above 1 the steel is expected to fail by fatigue.
 
@@ -168,6 +173,8 @@ def dang_van_number(
         Fatigue limits of the steel.
     residual
         Stress that does not change [Pa], (6, ...); only its hydrostatic part acts.
+    compression
+        Whether hydrostatic compression helps. False: it does not, which is the safe bound.
     tolerance
         Tolerance of the ball's radius [-].
 
@@ -229,6 +236,8 @@ def dang_van_number(
             )
         shear = greatest_shear(_stress(vectors - centre))
         pressure = hydrostatic_stress(one) + offset[n]
+        if not compression:
+            pressure = np.maximum(pressure, 0.0)
         number[n] = float((shear + limits.pressure_weight * pressure).max())
     return (number / limits.torsion).reshape(places)
 

@@ -111,7 +111,7 @@ def contact_temperature(
 def scuffing_temperature(viscosity_40: float, *, additives: bool) -> float:
     """Return the mean scuffing temperature of a mineral oil [K]; not checked against the source.
 
-    63 + 33 ln(nu40) degC, with EP additives 118 + 33 ln(nu40), nu40 in mm2/s. Source: [agma_925].
+    63 + 33 ln(nu40) degC, with EP additives 118 + 33 ln(nu40), nu40 in mm2/s. Source: [agma_2003].
 
     Examples
     --------
@@ -126,7 +126,7 @@ def scuffing_probability(contact: float, scuffing: float, *, spread: float = _SP
     """Return the probability of scuffing of a greatest contact temperature [-].
 
     A normal distribution whose deviation is a share of the scuffing temperature in degC. Below 0.1
-    the risk is called low, above 0.3 high; the share is not checked against the source [agma_925].
+    the risk is called low, above 0.3 high; the share is not checked against the source [agma_2003].
 
     Parameters
     ----------

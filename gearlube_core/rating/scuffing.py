@@ -73,6 +73,12 @@ class ScuffingOil(Checked):
         X_L: of friction by -21, about 1 of mineral oil [-]; that of -20 is eta^-0.05.
     supply
         X_S [-]: 1 in a bath; by a jet 1.2, submerged 0.2, not checked against the source.
+
+    Examples
+    --------
+    >>> oil = ScuffingOil(temperature=353.0, viscosity=30e-3, viscosity_40=2.2e-4, load_stage=12)
+    >>> oil.supply
+    1.0
     """
 
     temperature: Annotated[float, Number("K", 200.0, 500.0, "80 degC is 353.15 K.")]
@@ -196,9 +202,10 @@ def flash_rating(
 def mean_friction(
     pair: HelicalPair, gears: Gears, *, line_load: float, v: float, rho_C: float, eta: float
 ) -> tuple[float, float, float]:
-    """Return mu without X_L, X_R and K_B gamma; [N/m], [m/s], [mm], [Pa.s]; source [iso_6336_21]."""
+    """Return mu without X_L, and X_R and K_B gamma; rho_C in mm. Source: [iso_6336_21]."""
     e = pair.total_contact_ratio
-    K = 1.0 if e <= 2.0 else 1.0 + 0.2 * math.sqrt((e - 2.0) * (5.0 - e)) if e < 3.5 else 1.3
+    helical = min(max(e, 2.0), 3.5)
+    K = 1.0 + 0.2 * math.sqrt((helical - 2.0) * (5.0 - helical))
     X_R = 2.2 * (0.5 * sum(g.R_a for g in gears) / rho_C) ** 0.25
     rolling = 2.0 * v * math.sin(pair.working_pressure_angle)
     mu = 0.045 * (1e-3 * line_load * K / (rolling * rho_C)) ** 0.2

@@ -1,0 +1,298 @@
+"""Micropitting by ISO/TS 6336-22: specific film thickness, and that of the C-GF test gear."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.checks import check_option, check_positive
+from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.oil.walther_1931 import walther_coefficients, walther_kinematic_viscosity
+from gearlube_core.rating.gears import MM, MPA, Gears, said
+from gearlube_core.rating.scuffing import path_points
+from gearlube_core.rating.strength import elasticity_factor
+
+Viscosity = Callable[[Array | float], Array]  # eta [Pa.s] at a temperature [K]
+_T_38 = 311.0  # K
+# alpha at 38 degC [1/Pa] over a power of eta in Pa.s; not checked but of mineral oil
+_ALPHA = {"mineral": (2.657e-8, 0.1348), "pao": (1.466e-8, 0.0507), "pag": (1.392e-8, 0.1572)}
+_EFFUSIVITY = 13_780.0  # W s^0.5/(m2 K)
+_MARGIN = 1.4  # of the test gear's specific film
+_MODULUS = 226.374e9  # E_r of steel [Pa]
+# point A of the test gears C-GF at 2250 1/min: radius [m], speeds [m/s], line load over the torque
+# of the pinion [1/m2], R_a [m]
+TEST_POINT = (3.8998e-3, (1.0538, 4.7835), 236.3e3 / 265.1, 0.5e-6)
+
+
+class FilmPoints(NamedTuple):
+    """Films along the path of contact."""
+
+    film: Array  # h_Y [m]
+    specific: Array  # lambda_GF,Y [-]
+    pressure: Array  # p_dyn [Pa]
+    temperature: Array  # T_B,Y in the contact [K]
+
+
+def dynamic_viscosity(viscosity_40: float, viscosity_100: float, density_15: float) -> Viscosity:
+    """Return eta over temperature of an oil, as the standard has it [Pa.s], [K].
+
+    Examples
+    --------
+    >>> round(1e3 * float(dynamic_viscosity(220e-6, 19e-6, 890.0)(353.15)), 1)
+    30.1
+    """
+    A, B = walther_coefficients(viscosity_40, 313.15, viscosity_100, 373.15)
+
+    def eta(temperature: Array | float) -> Array:
+        T = np.asarray(temperature, dtype=float)
+        nu = np.vectorize(lambda one: walther_kinematic_viscosity(A, B, one))(T)
+        return nu * (density_15 - 0.7 * (T - 289.0))
+
+    return eta
+
+
+def specific_film(
+    radius: Array | float,
+    pressure: Array | float,
+    speeds: tuple[Array | float, Array | float],
+    *,
+    viscosity: Viscosity,
+    bulk: Array | float,
+    friction: Array | float,
+    roughness: float,
+    oil: str = "mineral",
+    contact: Array | float | None = None,
+    modulus: float = _MODULUS,
+) -> FilmPoints:
+    """Return film and specific film at points of a flank.
+
+    h = 1600 rho G^0.6 U^0.7 W^-0.13 S^0.22,  lambda = h/R_a
+
+    Parameters
+    ----------
+    radius
+        rho_n, relative radius of curvature normal to the flank [m].
+    pressure
+        Hertz pressure with all load factors [Pa]: of method B, or solved over the flank, A.
+    speeds
+        Of pinion and gear along the profile [m/s].
+    viscosity
+        eta over temperature [Pa.s], [K], see `dynamic_viscosity`.
+    bulk
+        T_M of the teeth [K].
+    friction
+        mu_m [-].
+    roughness
+        R_a, mean of both flanks [m].
+    oil
+        "mineral"; "pao", "pag", whose alpha is not checked against the source.
+    contact
+        T_B in the contact [K]; None: by the flash formula of the standard.
+    modulus
+        E_r [Pa].
+
+    Notes
+    -----
+    Source: [iso_6336_22]. Compare only with a permissible value of the same film formula.
+
+    Examples
+    --------
+    >>> eta = dynamic_viscosity(220e-6, 19e-6, 890.0)
+    >>> found = specific_film(
+    ...     37.122e-3, 1014.7e6, (5.11, 9.03), viscosity=eta, bulk=358.15, friction=0.0297,
+    ...     roughness=0.6e-6,
+    ... )
+    >>> round(1e6 * float(found.film), 2)
+    0.63
+    """
+    check_option("oil", oil, _ALPHA)
+    rho, p = np.asarray(radius, dtype=float), np.asarray(pressure, dtype=float)
+    u1, u2 = (np.asarray(one, dtype=float) for one in speeds)
+    T_M = np.asarray(bulk, dtype=float)
+    if contact is None:
+        takes = _EFFUSIVITY * (np.sqrt(u1) + np.sqrt(u2))
+        heat = np.asarray(friction) * p * np.abs(u1 - u2) / takes
+        T_B = T_M + 0.5 * math.sqrt(math.pi) * heat * np.sqrt(8.0 * rho * p / modulus)
+    else:
+        T_B = np.asarray(contact, dtype=float)
+    factor, power = _ALPHA[oil]
+    alpha_38 = factor * viscosity(_T_38) ** power
+
+    def alpha(T: Array) -> Array:
+        return alpha_38 * (1.0 + 516.0 * (1.0 / T - 1.0 / _T_38))
+
+    eta_M = viscosity(T_M)
+    G = alpha(T_M) * modulus
+    U = eta_M * (u1 + u2) / (2.0 * modulus * rho)
+    W = 2.0 * math.pi * (p / modulus) ** 2
+    S = alpha(T_B) * viscosity(T_B) / (alpha(T_M) * eta_M)
+    h = 1.6 * rho * G**0.6 * U**0.7 * W**-0.13 * S**0.22  # 1600 um of a radius in mm
+    return FilmPoints(h, h / roughness, p, T_B)
+
+
+class MicropittingRating(NamedTuple):
+    """Safety against micropitting, by the standard's formulas as implemented here."""
+
+    gamma: Array  # places on the path of contact, 0 at the pitch point
+    points: FilmPoints
+    permissible: float  # lambda_GFP [-]
+    outside: tuple[str, ...]
+    standard: str
+
+    @property
+    def safety(self) -> float:
+        """S_lambda [-]; the standard gives no least one."""
+        return float(self.points.specific.min()) / self.permissible
+
+
+def permissible_film(
+    test_torque: float, *, bulk: float, contact: float, material: float = 1.0, **film: Any
+) -> float:
+    """Return lambda_GFP = 1.4 W_W lambda_GFT of the C-GF test gear at its failure stage [-].
+
+    Parameters
+    ----------
+    test_torque
+        T1 of that stage, 265.1 at stage 10 [N.m].
+    bulk, contact
+        T_M and T_B at point A, as the test of the oil has them [K].
+    material
+        W_W [-]: 1 case-hardened pair, 0.75 with a through-hardened gear.
+    **film
+        viscosity and oil of `specific_film`.
+
+    Notes
+    -----
+    Source: [iso_6336_22]. For a film by another law, solve `TEST_POINT` with that law.
+
+    Examples
+    --------
+    >>> eta = dynamic_viscosity(220e-6, 19e-6, 890.0)
+    >>> round(permissible_film(265.1, bulk=400.85, contact=524.85, viscosity=eta), 3)
+    0.144
+    """
+    radius, speeds, load, roughness = TEST_POINT
+    line_load = load * check_positive("test_torque", test_torque, "N.m", "265.1 N.m is stage 10.")
+    pressure = math.sqrt(_MODULUS * line_load / (2.0 * math.pi * radius))
+    found = specific_film(
+        radius, pressure, speeds, bulk=bulk, friction=0.0, contact=contact, roughness=roughness,
+        **film,
+    )  # fmt: skip
+    return _MARGIN * material * float(found.specific)
+
+
+def micropitting_rating(
+    pair: HelicalPair,
+    gears: Gears,
+    *,
+    line_load: float,
+    load_factor: float,
+    pinion_speed: float,
+    viscosity: Viscosity,
+    bulk: float,
+    friction: float,
+    permissible: float,
+    oil: str = "mineral",
+    contact: float | None = None,
+) -> MicropittingRating:
+    """Return the specific film along the path of contact by method B, and its safety.
+
+    p = Z_E (F_t X/(b rho_n cos(alpha_t)))^(1/2) (K_A K_gamma K_v K_H beta K_H alpha)^(1/2)
+
+    Parameters
+    ----------
+    pair, gears
+        Geometry, moduli and R_a.
+    line_load
+        F_t/b without load factors [N/m].
+    load_factor
+        Their product [-].
+    pinion_speed
+        [rad/s]
+    viscosity, bulk, friction, oil, contact
+        As of `specific_film`; see `bulk_temperature`.
+    permissible
+        lambda_GFP, see `permissible_film` [-].
+
+    Notes
+    -----
+    Load without profile modification, see `path_points`. Source: [iso_6336_22].
+
+    Examples
+    --------
+    >>> import gearlube as gl
+    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
+    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    >>> found = gl.micropitting_rating(
+    ...     pair, (gear, gear), line_load=2e5, load_factor=1.5, pinion_speed=200.0, bulk=370.0,
+    ...     viscosity=gl.dynamic_viscosity(100e-6, 11e-6, 870.0), friction=0.05, permissible=0.3,
+    ... )
+    >>> round(found.safety, 1)
+    0.4
+    """
+    w = 1e-3 * check_positive("line_load", line_load, "N/m", "100 N/mm is 1e5 N/m.")
+    check_positive("load_factor", load_factor, "", "1 without.")
+    check_positive("pinion_speed", pinion_speed, "rad/s", "1000 rpm is 104.7 rad/s.")
+    path, cos_b = path_points(pair), math.cos(pair.base_helix_angle)
+    r1, r2 = path.pinion_radius, path.gear_radius
+    rho = r1 * r2 / (r1 + r2) / cos_b
+    p = w * path.share / (rho * math.cos(pair.transverse_pressure_angle))
+    p = elasticity_factor(gears) * np.sqrt(p * load_factor) / MPA
+    softness = sum(0.5 * (1.0 - g.poisson_ratio**2) / g.modulus for g in gears)
+    speeds = 1e-3 * pinion_speed * r1, 1e-3 * pinion_speed / pair.ratio * r2
+    points = specific_film(
+        rho / MM, p, speeds, viscosity=viscosity, bulk=bulk, friction=friction,
+        roughness=0.5e-6 * sum(g.R_a for g in gears), oil=oil, contact=contact,
+        modulus=1.0 / softness,
+    )  # fmt: skip
+    helix, angle = math.degrees(pair.helix_angle), math.degrees(pair.normal_pressure_angle)
+    m, v = MM * pair.normal_module, pinion_speed * pair.pinion_reference_radius
+    e_n = pair.transverse_contact_ratio / cos_b**2
+    outside = said(
+        (3.0 <= m <= 11.0, f"module within 3 to 11 mm, got {m:.2f} mm"),
+        (8.0 <= v <= 60.0, f"pitch line speed within 8 to 60 m/s, got {v:.1f} m/s"),
+        (helix <= 25.0, f"helix angle up to 25 deg, got {helix:.1f} deg"),
+        (angle <= 25.0, f"normal pressure angle up to 25 deg, got {angle:.1f} deg"),
+        (e_n < 2.5, f"virtual contact ratio below 2.5, got {e_n:.2f}"),
+    )
+    return MicropittingRating(
+        path.gamma, points, permissible, outside, "ISO/TS 6336-22:2018, method B"
+    )
+
+
+def bulk_temperature(
+    pair: HelicalPair, *, oil_temperature: float, power: float, friction: float, supply: float = 1.0
+) -> float:
+    """Return T_M of the teeth [K], where no thermal model has it.
+
+    T_M = T_oil + 7400 (P mu H_v/(a b))^0.72 X_S/1.2, P in kW, a and b in mm
+    H_v = (1 - eps_a + eps_1^2 + eps_2^2)(1/z1 + 1/z2) pi/cos(beta_b)
+
+    Parameters
+    ----------
+    oil_temperature, power
+        [K], [W]
+    friction, supply
+        mu_m, and X_S: 1 in a bath [-].
+
+    Notes
+    -----
+    Without tip relief. Source: [iso_6336_22].
+
+    Examples
+    --------
+    >>> import gearlube as gl
+    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
+    >>> round(bulk_temperature(pair, oil_temperature=350.0, power=50e3, friction=0.05))
+    360
+    """
+    e1 = (pair.contact_end - pair.pitch_point) / pair.base_pitch
+    e2 = (pair.pitch_point - pair.contact_start) / pair.base_pitch
+    H_v = (1.0 - e1 - e2 + e1 * e1 + e2 * e2) * math.pi / math.cos(pair.base_helix_angle)
+    H_v *= 1.0 / pair.pinion_teeth + 1.0 / pair.gear_teeth
+    size = MM * pair.centre_distance * MM * pair.face_width
+    return oil_temperature + 7400.0 * (1e-3 * power * friction * H_v / size) ** 0.72 * supply / 1.2
