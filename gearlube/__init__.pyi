@@ -217,7 +217,6 @@ from gearlube_core.rating.bearing_life import equivalent_load as equivalent_load
 from gearlube_core.rating.bearing_life import bearing_life as bearing_life
 from gearlube_core.rating.bearing_life import life_of_spectrum as life_of_spectrum
 from gearlube_core.rating.contact_temperature import contact_temperature as contact_temperature
-from gearlube_core.rating.contact_temperature import scuffing_temperature as scuffing_temperature
 from gearlube_core.rating.contact_temperature import scuffing_probability as scuffing_probability
 from gearlube_core.rating.scuffing import ScuffingOil as ScuffingOil
 from gearlube_core.rating.scuffing import flash_rating as flash_rating
@@ -234,7 +233,6 @@ from gearlube_core.rating.life import miner_sum as miner_sum
 from gearlube_core.rating.life import torque_factor as torque_factor
 from gearlube_core.rating.spectrum import duty_bins as duty_bins
 from gearlube_core.rating.spectrum import spectrum_damage as spectrum_damage
-from gearlube_core.rating.spectrum import equivalent_torque as equivalent_torque
 
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings

@@ -175,13 +175,7 @@ class BearingLife(NamedTuple):
 
 
 def reference_viscosity(speed: float, pitch_diameter: float) -> float:
-    """Return nu_1 [m2/s] of a speed [rad/s] and a pitch diameter [m]; source [iso_281].
-
-    Examples
-    --------
-    >>> round(1e6 * reference_viscosity(1500.0 * math.pi / 30.0, 62.7e-3), 3)
-    14.673
-    """
+    """Return nu_1 [m2/s] of a speed [rad/s] and a pitch diameter [m]; source [iso_281]."""
     n, D = speed * 30.0 / math.pi, 1e3 * pitch_diameter
     return 1e-6 * (45000.0 * n**-0.83 if n < 1000.0 else 4500.0 * n**-0.5) / math.sqrt(D)
 
@@ -192,11 +186,6 @@ def contamination_factor(
     """Return e_C [-] = min(1, A kappa^0.68 D^0.55) (1 - B/D^(1/3)) of a pitch diameter [m].
 
     D is in mm; A and B are those of a class of `CLEANLINESS`, or given. Source: [iso_281].
-
-    Examples
-    --------
-    >>> round(contamination_factor("-/17/14", 1.363, 62.7e-3), 4)
-    0.2039
     """
     if isinstance(cleanliness, str):
         check_option("cleanliness", cleanliness, CLEANLINESS)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_positive, check_within
+from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
 
 STEEL_EFFUSIVITY = 13_780.0  # sqrt(k rho c) [W s^0.5/(m2 K)]
@@ -106,20 +106,6 @@ def contact_temperature(
     peclet = min(u1, u2) * 0.25 * (x[-1] - x[0]) / diffusivity
     outside = () if peclet > _LEAST_PECLET else (f"Peclet number above 5, got {peclet:.2g}",)
     return ContactTemperature(x, T_M + rise, T_M, peclet, outside)
-
-
-def scuffing_temperature(viscosity_40: float, *, additives: bool) -> float:
-    """Return the mean scuffing temperature of a mineral oil [K]; not checked against the source.
-
-    63 + 33 ln(nu40) degC, with EP additives 118 + 33 ln(nu40), nu40 in mm2/s. Source: [agma_2003].
-
-    Examples
-    --------
-    >>> round(scuffing_temperature(220e-6, additives=True) - 273.15)
-    296
-    """
-    check_within("viscosity_40", viscosity_40, 1e-6, 5e-3, "m2/s", "220 mm2/s is 2.2e-4 m2/s.")
-    return _ZERO + (118.0 if additives else 63.0) + 33.0 * math.log(1e6 * viscosity_40)
 
 
 def scuffing_probability(contact: float, scuffing: float, *, spread: float = _SPREAD) -> float:

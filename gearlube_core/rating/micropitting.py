@@ -13,7 +13,7 @@ from gearlube_core.checks import check_option, check_positive
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.oil.walther_1931 import walther_coefficients, walther_kinematic_viscosity
 from gearlube_core.rating.gears import MM, MPA, Gears, said
-from gearlube_core.rating.scuffing import path_points
+from gearlube_core.rating.scuffing import path_points, tip_contact_ratios
 from gearlube_core.rating.strength import elasticity_factor
 
 Viscosity = Callable[[Array | float], Array]  # eta [Pa.s] at a temperature [K]
@@ -241,13 +241,13 @@ def micropitting_rating(
     r1, r2 = path.pinion_radius, path.gear_radius
     rho = r1 * r2 / (r1 + r2) / cos_b
     p = w * path.share / (rho * math.cos(pair.transverse_pressure_angle))
-    p = elasticity_factor(gears) * np.sqrt(p * load_factor) / MPA
-    softness = sum(0.5 * (1.0 - g.poisson_ratio**2) / g.modulus for g in gears)
+    Z_E = elasticity_factor(gears)
+    p = Z_E * np.sqrt(p * load_factor) / MPA
     speeds = 1e-3 * pinion_speed * r1, 1e-3 * pinion_speed / pair.ratio * r2
     points = specific_film(
         rho / MM, p, speeds, viscosity=viscosity, bulk=bulk, friction=friction,
         roughness=0.5e-6 * sum(g.R_a for g in gears), oil=oil, contact=contact,
-        modulus=1.0 / softness,
+        modulus=2.0 * math.pi * Z_E**2 / MPA,
     )  # fmt: skip
     helix, angle = math.degrees(pair.helix_angle), math.degrees(pair.normal_pressure_angle)
     m, v = MM * pair.normal_module, pinion_speed * pair.pinion_reference_radius
@@ -290,8 +290,7 @@ def bulk_temperature(
     >>> round(bulk_temperature(pair, oil_temperature=350.0, power=50e3, friction=0.05))
     360
     """
-    e1 = (pair.contact_end - pair.pitch_point) / pair.base_pitch
-    e2 = (pair.pitch_point - pair.contact_start) / pair.base_pitch
+    e1, e2 = tip_contact_ratios(pair)
     H_v = (1.0 - e1 - e2 + e1 * e1 + e2 * e2) * math.pi / math.cos(pair.base_helix_angle)
     H_v *= 1.0 / pair.pinion_teeth + 1.0 / pair.gear_teeth
     size = MM * pair.centre_distance * MM * pair.face_width

@@ -12,7 +12,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.number import Checked, Number, Positive
-from gearlube_core.rating.gears import MM, MPA, UM, Gears, said
+from gearlube_core.rating.gears import MM, UM, Gears, Pair, said
+from gearlube_core.rating.strength import elasticity_factor
 
 _ZERO = 273.15  # K
 _EFFUSIVITY = 13.78  # B_M of steel [N/(mm s^0.5 K)]
@@ -51,6 +52,12 @@ def path_points(pair: HelicalPair, points: int = 201) -> PathPoints:
     part = min(pair.overlap_ratio, 1.0)
     share = (1.0 - part) * spur + part * butt / pair.transverse_contact_ratio
     return PathPoints(gamma, x, whole - x, share)
+
+
+def tip_contact_ratios(pair: HelicalPair) -> Pair:
+    """Return eps_1 and eps_2: of recess at the pinion's tip and of approach [-]."""
+    recess, approach = pair.contact_end - pair.pitch_point, pair.pitch_point - pair.contact_start
+    return recess / pair.base_pitch, approach / pair.base_pitch
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,10 +116,9 @@ def _common(pair: HelicalPair, gears: Gears, speed: float) -> dict[str, float]:
     alpha_t, alpha_w = pair.transverse_pressure_angle, pair.working_pressure_angle
     angle = math.sin(alpha_w) * math.cos(pair.normal_pressure_angle)
     angle = (angle * math.cos(pair.base_helix_angle)) ** 0.25
-    softness = sum(0.5 * (1.0 - g.poisson_ratio**2) / (MPA * g.modulus) for g in gears)
     rho_1, rho_2 = MM * pair.pitch_point, MM * (pair.tangent_length - pair.pitch_point)
     return {
-        "X_M": math.sqrt(1000.0) * softness**-0.25 / _EFFUSIVITY,
+        "X_M": (2e6 * math.pi * elasticity_factor(gears) ** 2) ** 0.25 / _EFFUSIVITY,
         "X_ab": 1.22 * angle / math.sqrt(math.cos(alpha_t) * math.cos(alpha_w)),
         "v": speed * pair.centre_distance / (pair.ratio + 1.0),
         "rho_C": rho_1 * rho_2 / (rho_1 + rho_2) / math.cos(pair.base_helix_angle),
@@ -270,9 +276,7 @@ def integral_rating(
     first, second = float(path.pinion_radius[1]), float(path.gear_radius[1])
     X_BE = 0.51 * math.sqrt(u + 1.0) * (math.sqrt(first) - math.sqrt(second / u))
     X_BE /= (first * second) ** 0.25
-    pitch = pair.base_pitch
-    e1 = (pair.contact_end - pair.pitch_point) / pitch
-    e2 = (pair.pitch_point - pair.contact_start) / pitch
+    e1, e2 = tip_contact_ratios(pair)
     X_eps = contact_ratio_factor(e1, e2)
     approach = (e2 / e1) if pinion_drives else (e1 / e2)
     X_Q = min(max(1.4 - 4.0 / 15.0 * approach, 0.6), 1.0)

@@ -184,20 +184,3 @@ def spectrum_damage(
                 stress = getattr(rating, f"{name}_stress")[member]
                 damage[n, member] = miner_sum(line, stress, cycles)
     return SpectrumDamage(found["contact"], found["bending"], bins.torque > 0.0, tuple(outside))
-
-
-def equivalent_torque(bins: DutyBins, exponent: float = PITTING_EXPONENT) -> float:
-    """Return the torque that damages as a spectrum does in as many turns [N.m], of both flanks.
-
-    (sum n T^p/sum n)^(1/p): true only while all bins lie on one slope of the strength line.
-
-    Examples
-    --------
-    >>> one = np.ones(2)
-    >>> bins = DutyBins(np.array([100.0, 200.0]), 100.0 * one, 330.0 * one, one)
-    >>> round(equivalent_torque(bins), 1)
-    180.4
-    """
-    turns = bins.revolutions
-    mean = (turns * np.abs(bins.torque) ** exponent).sum() / turns.sum()
-    return float(mean ** (1.0 / exponent))
