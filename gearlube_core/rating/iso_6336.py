@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from gearlube_core.checks import check_option
+from gearlube_core.checks import check_option, check_within
 from gearlube_core.helical_geometry.iso_6336_stiffness import (
     IsoStiffness,
     iso_stiffness,
@@ -114,6 +114,10 @@ def cylindrical_rating(
     """
     check_load(pinion_torque, pinion_speed, cycles, oil_viscosity)
     check_option("edition", edition, EDITIONS)
+    check_within(
+        "transverse contact ratio", pair.transverse_contact_ratio, 1.0, 4.0, "",
+        "The formulas need single or double contact of teeth: use longer teeth.",
+    )  # fmt: skip
     d1, b, m_n = (2.0 * MM * pair.pinion_reference_radius, MM * pair.face_width,
                   MM * pair.normal_module)  # fmt: skip
     F_t = 2e3 * pinion_torque / d1
@@ -163,7 +167,7 @@ def cylindrical_rating(
 def _outside(pair: HelicalPair, v: float) -> tuple[str, ...]:
     eps, helix = pair.transverse_contact_ratio, math.degrees(pair.helix_angle)
     return said(
-        (1.0 < eps < 2.5, f"transverse contact ratio within 1 to 2.5, got {eps:.3f}"),
+        (eps < 2.5, f"transverse contact ratio below 2.5, got {eps:.3f}"),
         (helix <= 30.0, f"helix angle up to 30 deg, got {helix:.1f} deg"),
         (v <= 60.0, f"pitch line speed up to 60 m/s, got {v:.1f} m/s"),
     )

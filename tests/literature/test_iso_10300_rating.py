@@ -146,12 +146,13 @@ def test_limits_of_the_method_are_said_and_within_them_nothing(bevel):
 
 
 def test_a_straight_bevel_gear_is_the_limit_of_small_spiral_angles():
-    def stress(spiral: float) -> float:
+    def factors(spiral: float) -> dict:
         small = replace(SPIRAL_BEVEL.cones, pinion_spiral_angle=spiral, gear_spiral_angle=spiral)
-        rating = rated(replace(SPIRAL_BEVEL, cones=small), 300.0, 26e-6)
-        return rating.factors["sigma_H0"]
+        return rated(replace(SPIRAL_BEVEL, cones=small), 300.0, 26e-6).factors
 
-    assert stress(0.0) == pytest.approx(stress(1e-6), rel=1e-4)
+    straight, near = factors(0.0), factors(1e-6)
+    assert straight["sigma_H0"] == pytest.approx(near["sigma_H0"], rel=1e-4)
+    assert straight["Y_eps"] == pytest.approx(0.25 + 0.75 / straight["eps_va"], rel=1e-12)
 
 
 def test_the_coast_flank_of_gears_without_offset_is_as_the_drive_flank(bevel):

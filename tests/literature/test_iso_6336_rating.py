@@ -12,6 +12,7 @@ from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.rating.gears import LoadFactors, RatedGear, StrengthRating
 from gearlube_core.rating.iso_6336 import cylindrical_rating
 from gearlube_core.rating.life import miner_sum
+from gearlube_core.rating.load_factors import dynamic_factor, face_load_factor
 
 CASE = RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
 SOFT = RatedGear(
@@ -199,6 +200,24 @@ def test_overlap_leads_from_spur_to_helical_gears_without_a_step():
     assert factors(0.3)["Z_BD"][0] > at["Z_BD"][0] == 1.0
 
 
+def test_nominal_contact_stress_is_that_of_hertz_at_the_pitch_point():
+    factors = rated_fzg((CASE, CASE)).factors
+    alpha_t, alpha_w = FZG_C.transverse_pressure_angle, FZG_C.working_pressure_angle
+    w = 265.1 / FZG_C.pinion_reference_radius / FZG_C.face_width / math.cos(alpha_t)
+    r = [base * math.tan(alpha_w) for base in (FZG_C.pinion_base_radius, FZG_C.gear_base_radius)]
+    R = r[0] * r[1] / (r[0] + r[1])
+    pressure = math.sqrt(w * 206e9 / (2.0 * (1.0 - 0.3**2)) / (math.pi * R))
+    assert factors["sigma_H0"] / factors["Z_eps"] == pytest.approx(1e-6 * pressure, rel=1e-9)
+
+
+def test_a_contact_ratio_below_1_is_refused():
+    short = replace(
+        STAGE_3, pinion_tip_radius=0.5 * 0.356, gear_tip_radius=0.5 * 1.385, backlash=math.nan
+    )
+    with pytest.raises(ParameterError, match="transverse contact ratio must be within 1 to 4"):
+        rated_stage_3(pair=short)
+
+
 def test_damage_is_1_at_the_cycles_where_safety_is_1():
     rated = rated_fzg((CASE, CASE))
     line, strength = rated.contact_lines[0], rated.contact_strength[0]
@@ -256,3 +275,39 @@ def test_a_load_that_cannot_be_rated_is_refused(change, words):
 def test_a_material_without_limits_is_refused(change, words):
     with pytest.raises(ParameterError, match=words):
         replace(CASE, **change)
+
+
+@pytest.mark.parametrize(
+    ("N", "e", "value"),
+    [
+        # by the formulas of the standard with B_p = 0.5, B_f = 0.4, B_k = 0.8
+        (0.5, 1.5, 1.0 + 0.5 * (0.32 * 0.5 + 0.34 * 0.4 + 0.23 * 0.8)),
+        (1.0, 1.5, 1.0 + 0.32 * 0.5 + 0.34 * 0.4 + 0.90 * 0.8),
+        (2.0, 1.5, 0.47 * 0.5 + 0.47 * 0.4 + 0.75),
+        (1.0, 3.0, 1.0 + 0.32 * 0.5 + 0.57 / 2.7 * 0.4 + (0.57 - 0.15) / 1.56 * 0.8),
+        (2.0, 3.0, 0.47 * 0.5 + 0.12 / 1.26 * 0.4 + 1.0),
+    ],
+)
+def test_the_dynamic_factor_has_the_three_ranges_of_speed(N, e, value):
+    assert dynamic_factor(N, e, (0.5, 0.4, 0.8), (0.85, 1.15)) == pytest.approx(value, rel=1e-12)
+
+
+def test_the_dynamic_factor_falls_on_a_line_between_resonance_and_above():
+    at = [dynamic_factor(N, 1.5, (0.5, 0.4, 0.8), (0.85, 1.15)) for N in (1.15, 1.325, 1.5)]
+    assert at[1] == pytest.approx(0.5 * (at[0] + at[2]))
+
+
+def test_the_face_factor_is_that_of_its_formula_and_has_no_step_at_2():
+    # 500 N/mm, b/d 2/3: f_sh 5.11 um, F_bx 16.80 um, run in 14.28 um; 15 N/(mm um)
+    K = face_load_factor(5e5, 0.1, 0.15, 15e9, misalignment=10e-6)
+    assert pytest.approx(1.0 + 0.5 * 14.278 * 15.0 / 500.0, rel=1e-4) == K
+    below, above = (
+        face_load_factor(5e5, 0.1, 0.15, c, misalignment=10e-6)
+        for c in (0.9999e9 * 1000.0 / 14.278, 1.0001e9 * 1000.0 / 14.278)
+    )
+    assert below < 2.0 < above
+    assert above == pytest.approx(below, rel=1e-3)
+    soft = face_load_factor(5e5, 0.1, 0.15, 15e9, misalignment=10e-6, contact_limit=0.8e9)
+    assert soft == pytest.approx(
+        1.0 + 0.5 * 16.798 * (1.0 - 320.0 / 800.0) * 15.0 / 500.0, rel=1e-4
+    )
