@@ -64,6 +64,7 @@ from gearlube_core.dynamics.train.elements.cylindrical_bearing import (
 )
 from gearlube_core.bearings.bearing_under_load import bearing_under_load as bearing_under_load
 from gearlube_core.bearings.element_loads import element_loads as element_loads
+from gearlube_core.bearings.element_loads import tapered_loads as tapered_loads
 from gearlube_core.dynamics.train.elements.gear_mesh import GearMesh as GearMesh
 from gearlube_core.dynamics.train.elements.joint import Joint as Joint
 from gearlube_core.dynamics.train.elements.orbit import Orbit as Orbit

@@ -8,6 +8,8 @@ from gearlube_core.arrays import Array
 from gearlube_core.bearings.ball_rings import BallRings
 from gearlube_core.bearings.bearing_under_load import HasRings
 from gearlube_core.bearings.cylinder_rings import CylinderRings
+from gearlube_core.bearings.losses.geometry import BearingGeometry
+from gearlube_core.bearings.roller_loads import ring_loads
 from gearlube_core.errors import ParameterError
 
 
@@ -52,5 +54,42 @@ def element_loads(bearing: HasRings, displacement: Array, *, cage_angle: float =
         return rings.stiffness * np.maximum(approach, 0.0) ** (10.0 / 9.0)
     raise ParameterError(
         f"element_loads takes ball and cylindrical roller bearings, got {type(bearing).__name__}. "
-        "Tapered rollers have theirs from `bearing_loss`'s own kernel, `ring_loads`."
+        "Tapered rollers have `tapered_loads`."
     )
+
+
+def tapered_loads(geometry: BearingGeometry, *, axial_load: float, radial_load: float) -> Array:
+    """Return the load of each roller of a row of tapered rollers, of rigid, coaxial rings.
+
+    Parameters
+    ----------
+    geometry
+        Bearing.
+    axial_load, radial_load
+        Of the row, not negative [N].
+
+    Returns
+    -------
+    ndarray, shape (rollers,)
+        [N], on the outer race. For `bearing_life`.
+
+    Raises
+    ------
+    ParameterError
+        The axial load is too small to hold the row together.
+
+    Examples
+    --------
+    >>> from gearlube_core.bearings.bearing_file import BearingFile
+    >>> bearing = BearingFile.named("wingertszahn_2023").geometry()
+    >>> loads = tapered_loads(bearing, axial_load=6000.0, radial_load=4000.0)
+    >>> round(float(loads.sum() * np.sin(bearing.outer_angle)))
+    6000
+    """
+    loads = np.zeros(geometry.n_rollers)
+    if ring_loads(axial_load, radial_load, geometry.dry_rollers(), loads):
+        raise ParameterError(
+            "axial_load must hold the rollers of a row against radial_load, got "
+            f"{axial_load:g} and {radial_load:g} N. Give at least F_r tan(contact angle)/0.8."
+        )
+    return loads

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import gearlube as gl
+from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.bearing_life import CLEANLINESS, RatedBearing, bearing_life
 
@@ -200,3 +201,13 @@ def test_the_classes_of_cleanliness_are_in_order():
 
     for start in ("-/", "grease"):
         assert of(start) == sorted(of(start), reverse=True)
+
+
+def test_loads_of_tapered_rollers_bear_both_loads_and_a_loose_row_is_refused():
+    geometry = BearingFile.named("wingertszahn_2023").geometry()
+    loads = gl.tapered_loads(geometry, axial_load=6000.0, radial_load=5000.0)
+    angle, a = 2.0 * np.pi * np.arange(loads.size) / loads.size, geometry.outer_angle
+    assert loads.sum() * math.sin(a) == pytest.approx(6000.0, rel=1e-6)
+    assert (loads * np.cos(angle)).sum() * math.cos(a) == pytest.approx(5000.0, rel=1e-6)
+    with pytest.raises(ParameterError, match="axial_load must hold the rollers"):
+        gl.tapered_loads(geometry, axial_load=100.0, radial_load=5000.0)
