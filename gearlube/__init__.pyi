@@ -222,7 +222,6 @@ from gearlube_core.rating.contact_temperature import scuffing_probability as scu
 from gearlube_core.rating.scuffing import ScuffingOil as ScuffingOil
 from gearlube_core.rating.scuffing import flash_rating as flash_rating
 from gearlube_core.rating.scuffing import integral_rating as integral_rating
-from gearlube_core.rating.micropitting import dynamic_viscosity as dynamic_viscosity
 from gearlube_core.rating.micropitting import specific_film as specific_film
 from gearlube_core.rating.micropitting import permissible_film as permissible_film
 from gearlube_core.rating.micropitting import micropitting_rating as micropitting_rating
@@ -230,6 +229,7 @@ from gearlube_core.rating.micropitting import bulk_temperature as bulk_temperatu
 from gearlube_core.rating.subsurface import hardness_profile as hardness_profile
 from gearlube_core.rating.subsurface import shear_amplitude as shear_amplitude
 from gearlube_core.rating.subsurface import flank_fracture as flank_fracture
+from gearlube_core.rating.wear import wear_per_cycle as wear_per_cycle
 from gearlube_core.rating.life import miner_sum as miner_sum
 from gearlube_core.rating.life import torque_factor as torque_factor
 from gearlube_core.rating.spectrum import duty_bins as duty_bins

@@ -43,11 +43,11 @@ class RatedGear(Checked):
     flank_roughness, root_roughness, arithmetic_roughness
         Mean peak to valley R_z [m], and R_a of the flank; None: a sixth of its R_z.
     bore
-        Inner diameter of the body [m].
+        Inner diameter of the body, of cylindrical gears [m].
     rim_ratio
         Thickness of the rim over tooth depth [-]; infinite: solid.
     protuberance
-        s_pr of the tool less the grinding stock [m].
+        s_pr of the tool less the grinding stock, of cylindrical gears [m].
     mean_stress
         Y_M [-]: 1 for load on one flank, about 0.7 where both flanks bear load, as of an idler.
     slip_layer

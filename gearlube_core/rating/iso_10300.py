@@ -12,7 +12,6 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.rating.bevel_mesh import BevelMesh, VirtualGears
 from gearlube_core.rating.gears import (
     MM,
-    MPA,
     Gears,
     LoadFactors,
     Pair,
@@ -29,10 +28,8 @@ from gearlube_core.rating.load_factors import (
 )
 from gearlube_core.rating.strength import (
     ToothForm,
-    bending_lines,
-    contact_lines,
     elasticity_factor,
-    life_of,
+    strength_rating,
     tooth_form,
 )
 
@@ -82,16 +79,10 @@ def bevel_rating(
     F_n = F_mt / (math.cos(alpha) * math.cos(spirals[0]))
     F_vmt = F_mt * math.cos(v.helix) / math.cos(spirals[0])
     K = _load_factors(mesh, gears, factors, F_vmt, pinion_speed)
-    shock = factors.shock
     Z_MB, Z_E = _middle_factor(v), elasticity_factor(gears)
-    sigma_H0 = math.sqrt(F_n / (v.line_length * v.radius)) * Z_MB * v.sharing * Z_E
-    stress = sigma_H0 * math.sqrt(shock * K["K_v"] * K["K_Hb"] * K["K_Ha"]) / MPA
     v_1 = 5e-4 * pinion_speed * mesh.diameters[0]
     v_2 = v_1 * math.cos(spirals[0]) / math.cos(spirals[1])
     Z_Hyp = _sliding_factor(mesh, v_1, v_2) if mesh.cones.offset else 1.0
-    lines_H, strength_H, missing = contact_lines(
-        gears, oil_viscosity=oil_viscosity, speed=v_2, radius=v.radius, further=_Z_KP * Z_Hyp
-    )
     forms = _tooth_form(mesh, 0), _tooth_form(mesh, 1)
     part = min(v.overlap_ratio, 1.0)
     Y = {
@@ -99,31 +90,34 @@ def bevel_rating(
         "Y_BS": _spiral_factor(mesh),
         "Y_LS": v.sharing**2,
     }
-    # Y_F of the form divides by the cosine of the effective angle, Y_Fa by that of the flank
-    Y_Fa = both(lambda f: f.Y_F * math.cos(mesh.effective_angle) / math.cos(alpha), forms)
-    common = F_vmt / (v.face_width * v.module) * math.prod(Y.values())
-    sigma_F0 = both(lambda Y_F, f: common * Y_F * f.Y_S, Y_Fa, forms)
-    loads = shock * K["K_v"] * K["K_Fb"] * K["K_Fa"] / MPA
-    lines_F, strength_F, notched = bending_lines(gears, both(lambda f: f.q_s, forms), v.module)
-    return StrengthRating(
-        contact_stress=(stress, stress),
-        bending_stress=both(lambda s: s * loads, sigma_F0),
-        contact_lines=lines_H,
-        bending_lines=lines_F,
-        cycles=cycles,
-        factors={
-            "F_mt": F_mt, "F_n": F_n, "eps_va": v.contact_ratio, "eps_vb": v.overlap_ratio,
-            "b_vv": v.face_width, "l_bm": v.line_length, "rho_rel": v.radius, **K, "Z_MB": Z_MB,
-            "Z_LS": v.sharing, "Z_E": Z_E, "sigma_H0": sigma_H0, **strength_H, "Z_Hyp": Z_Hyp,
-            "Z_KP": _Z_KP, "Y_Fa": Y_Fa, "Y_Sa": both(lambda f: f.Y_S, forms), **Y,
-            "sigma_F0": sigma_F0, **strength_F, **life_of(gears, cycles),
+    # the form divides by the cosine of the effective angle, Y_Fa by that of the flank's own
+    own = math.cos(mesh.effective_angle) / math.cos(alpha)
+    return strength_rating(
+        gears,
+        cycles,
+        K,
+        sigma_H0=math.sqrt(F_n / (v.line_length * v.radius)) * Z_MB * v.sharing * Z_E,
+        Z_BD=(1.0, 1.0),
+        sigma_F=F_vmt / (v.face_width * v.module) * math.prod(Y.values()),
+        Y_F=both(lambda form: form.Y_F * own, forms),
+        forms=forms,
+        Y_B=(1.0, 1.0),
+        module=v.module,
+        film={
+            "oil_viscosity": oil_viscosity, "speed": v_2, "radius": v.radius,
+            "further": _Z_KP * Z_Hyp,
         },
-        outside=_outside(mesh, K["N"]) + missing + notched,
+        found={
+            "F_mt": F_mt, "F_n": F_n, "eps_va": v.contact_ratio, "eps_vb": v.overlap_ratio,
+            "b_vv": v.face_width, "l_bm": v.line_length, "rho_rel": v.radius, "Z_MB": Z_MB,
+            "Z_LS": v.sharing, "Z_E": Z_E, "Z_Hyp": Z_Hyp, "Z_KP": _Z_KP, **Y,
+        },
+        outside=_outside(mesh, K["N"], min(one.rim_ratio for one in gears)),
         standard="ISO 10300-1, -2, -3:2023, method B1",
     )  # fmt: skip
 
 
-def _outside(g: BevelMesh, N: float) -> tuple[str, ...]:
+def _outside(g: BevelMesh, N: float, rim: float) -> tuple[str, ...]:
     v, spiral = g.virtual, math.degrees(0.5 * sum(g.spirals))
     angle, wide = math.degrees(g.effective_angle), g.face_width / g.cones.normal_module
     return said(
@@ -132,6 +126,7 @@ def _outside(g: BevelMesh, N: float) -> tuple[str, ...]:
         (angle <= 30.0, f"effective pressure angle up to 30 deg, got {angle:.1f} deg"),
         (wide <= 13.0, f"face width up to 13 normal modules, got {wide:.1f}"),
         (N <= 0.75, f"speed up to 0.75 of resonance for a checked K_v, got {N:.2f}"),
+        (rim >= 1.2, f"thickness of the rim from 1.2 tooth depths on, got {rim:.2f}"),
         (g.flank == "drive", "drive flank for checked formulas, got the coast flank"),
     )
 

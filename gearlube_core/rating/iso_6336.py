@@ -18,7 +18,6 @@ from gearlube_core.helical_geometry.iso_6336_stiffness import (
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.rating.gears import (
     MM,
-    MPA,
     UM,
     Gears,
     LoadFactors,
@@ -38,10 +37,8 @@ from gearlube_core.rating.load_factors import (
 )
 from gearlube_core.rating.strength import (
     ToothForm,
-    bending_lines,
-    contact_lines,
     elasticity_factor,
-    life_of,
+    strength_rating,
     tooth_form,
 )
 
@@ -122,8 +119,7 @@ def cylindrical_rating(
                   MM * pair.normal_module)  # fmt: skip
     F_t = 2e3 * pinion_torque / d1
     v = pinion_speed * pair.pinion_reference_radius
-    shock = factors.shock
-    w = F_t * shock / b
+    w = F_t * factors.shock / b
     moduli = both(lambda g: g.modulus, gears)
     iso = iso_stiffness(pair, line_load=1e3 * w, modulus=moduli, blank_factor=blank_factor)
     relief = run_in_relief(gears) if tip_relief is None else UM * tip_relief
@@ -132,34 +128,26 @@ def cylindrical_rating(
     Z_E, u = elasticity_factor(gears), pair.ratio
     per_area = F_t * (u + 1.0) / (d1 * b * u)
     sigma_H0 = Z["Z_H"] * Z_E * Z["Z_eps"] * Z["Z_beta"] * math.sqrt(per_area)
-    stress = sigma_H0 * math.sqrt(shock * K["K_v"] * K["K_Hb"] * K["K_Ha"]) / MPA
     curvature = sum(1.0 / math.tan(pair.working_pressure_angle) / r for r in _base_radii(pair))
-    lines_H, strength_H, missing = contact_lines(
-        gears, oil_viscosity=oil_viscosity, speed=v, radius=MM / curvature
-    )
     forms = _tooth_form(pair, gears[0], 0), _tooth_form(pair, gears[1], 1)
-    Y, Y_eps_n = _bending_factors(pair, accurate, edition)
-    Y_F = both(lambda form: form.Y_F * Y_eps_n, forms)
-    Y_B = both(_rim_factor, gears)
-    common = F_t / (b * m_n) * math.prod(Y.values())
-    sigma_F0 = both(lambda f, form, rim: common * f * form.Y_S * rim, Y_F, forms, Y_B)
-    loads = shock * K["K_v"] * K["K_Fb"] * K["K_Fa"] / MPA
-    lines_F, strength_F, notched = bending_lines(gears, both(lambda f: f.q_s, forms), m_n)
-    return StrengthRating(
-        contact_stress=both(lambda Z_B: Z_B * stress, Z_BD),
-        bending_stress=both(lambda s: s * loads, sigma_F0),
-        contact_lines=lines_H,
-        bending_lines=lines_F,
-        cycles=cycles,
-        factors={
-            "F_t": F_t, "v": v, "c'": 1e-9 * iso.single, "c_ga": 1e-9 * iso.mesh, **K, **Z,
-            "Z_BD": Z_BD, "Z_E": Z_E, "sigma_H0": sigma_H0, **strength_H, **Y,
-            "Y_F": Y_F, "Y_S": both(lambda f: f.Y_S, forms), "q_s": both(lambda f: f.q_s, forms),
-            "s_Fn": both(lambda f: f.s_Fn, forms), "h_Fe": both(lambda f: f.h_Fe, forms),
-            "rho_F": both(lambda f: f.rho_F, forms), "Y_B": Y_B, "sigma_F0": sigma_F0,
-            **strength_F, **life_of(gears, cycles),
+    Y, f_eps = _bending_factors(pair, accurate, edition)
+    return strength_rating(
+        gears,
+        cycles,
+        K,
+        sigma_H0=sigma_H0,
+        Z_BD=Z_BD,
+        sigma_F=F_t / (b * m_n) * math.prod(Y.values()),
+        Y_F=both(lambda form: form.Y_F * f_eps, forms),
+        forms=forms,
+        Y_B=both(_rim_factor, gears),
+        module=m_n,
+        film={"oil_viscosity": oil_viscosity, "speed": v, "radius": MM / curvature},
+        found={
+            "F_t": F_t, "v": v, "c'": 1e-9 * iso.single, "c_ga": 1e-9 * iso.mesh, **Z, "Z_E": Z_E,
+            **Y,
         },
-        outside=_outside(pair, v) + iso.outside + missing + notched,
+        outside=_outside(pair, v) + iso.outside,
         standard=f"ISO 6336-1, -2, -3:{edition}, method B",
     )  # fmt: skip
 

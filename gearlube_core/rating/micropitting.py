@@ -11,12 +11,11 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.oil.walther_1931 import walther_coefficients, walther_kinematic_viscosity
 from gearlube_core.rating.gears import MM, MPA, Gears, said
 from gearlube_core.rating.scuffing import path_points, tip_contact_ratios
 from gearlube_core.rating.strength import elasticity_factor
 
-Viscosity = Callable[[Array | float], Array]  # eta [Pa.s] at a temperature [K]
+Viscosity = Callable[[float], float]  # eta [Pa.s] at a temperature [K]
 _T_38 = 311.0  # K
 # alpha at 38 degC [1/Pa] over a power of eta in Pa.s; not checked but of mineral oil
 _ALPHA = {"mineral": (2.657e-8, 0.1348), "pao": (1.466e-8, 0.0507), "pag": (1.392e-8, 0.1572)}
@@ -35,24 +34,6 @@ class FilmPoints(NamedTuple):
     specific: Array  # lambda_GF,Y [-]
     pressure: Array  # p_dyn [Pa]
     temperature: Array  # T_B,Y in the contact [K]
-
-
-def dynamic_viscosity(viscosity_40: float, viscosity_100: float, density_15: float) -> Viscosity:
-    """Return eta over temperature of an oil, as the standard has it [Pa.s], [K].
-
-    Examples
-    --------
-    >>> round(1e3 * float(dynamic_viscosity(220e-6, 19e-6, 890.0)(353.15)), 1)
-    30.1
-    """
-    A, B = walther_coefficients(viscosity_40, 313.15, viscosity_100, 373.15)
-
-    def eta(temperature: Array | float) -> Array:
-        T = np.asarray(temperature, dtype=float)
-        nu = np.vectorize(lambda one: walther_kinematic_viscosity(A, B, one))(T)
-        return nu * (density_15 - 0.7 * (T - 289.0))
-
-    return eta
 
 
 def specific_film(
@@ -81,7 +62,7 @@ def specific_film(
     speeds
         Of pinion and gear along the profile [m/s].
     viscosity
-        eta over temperature [Pa.s], [K], see `dynamic_viscosity`.
+        eta [Pa.s] of a temperature [K], such as `lambda T: oil.state(T).eta0` of a `Lubricant`.
     bulk
         T_M of the teeth [K].
     friction
@@ -101,13 +82,12 @@ def specific_film(
 
     Examples
     --------
-    >>> eta = dynamic_viscosity(220e-6, 19e-6, 890.0)
     >>> found = specific_film(
-    ...     37.122e-3, 1014.7e6, (5.11, 9.03), viscosity=eta, bulk=358.15, friction=0.0297,
-    ...     roughness=0.6e-6,
+    ...     37.122e-3, 1014.7e6, (5.11, 9.03), viscosity=lambda T: 25.2e-3, bulk=358.15,
+    ...     friction=0.0, roughness=0.6e-6,
     ... )
-    >>> round(1e6 * float(found.film), 2)
-    0.63
+    >>> round(float(found.specific), 2)
+    1.27
     """
     check_option("oil", oil, _ALPHA)
     rho, p = np.asarray(radius, dtype=float), np.asarray(pressure, dtype=float)
@@ -120,16 +100,17 @@ def specific_film(
     else:
         T_B = np.asarray(contact, dtype=float)
     factor, power = _ALPHA[oil]
-    alpha_38 = factor * viscosity(_T_38) ** power
+    eta = np.vectorize(viscosity, otypes=[float])
+    alpha_38 = factor * eta(_T_38) ** power
 
     def alpha(T: Array) -> Array:
         return alpha_38 * (1.0 + 516.0 * (1.0 / T - 1.0 / _T_38))
 
-    eta_M = viscosity(T_M)
+    eta_M = eta(T_M)
     G = alpha(T_M) * modulus
     U = eta_M * (u1 + u2) / (2.0 * modulus * rho)
     W = 2.0 * math.pi * (p / modulus) ** 2
-    S = alpha(T_B) * viscosity(T_B) / (alpha(T_M) * eta_M)
+    S = alpha(T_B) * eta(T_B) / (alpha(T_M) * eta_M)
     h = 1.6 * rho * G**0.6 * U**0.7 * W**-0.13 * S**0.22  # 1600 um of a radius in mm
     return FilmPoints(h, h / roughness, p, T_B)
 
@@ -171,9 +152,10 @@ def permissible_film(
 
     Examples
     --------
-    >>> eta = dynamic_viscosity(220e-6, 19e-6, 890.0)
-    >>> round(permissible_film(265.1, bulk=400.85, contact=524.85, viscosity=eta), 3)
-    0.144
+    >>> def eta(temperature):
+    ...     return 1e-3 * math.exp(1200.0 / (temperature - 180.0) - 3.5)
+    >>> round(permissible_film(265.1, bulk=400.85, contact=524.85, viscosity=eta), 2)
+    0.13
     """
     radius, speeds, load, roughness = TEST_POINT
     line_load = load * check_positive("test_torque", test_torque, "N.m", "265.1 N.m is stage 10.")
@@ -225,14 +207,15 @@ def micropitting_rating(
     Examples
     --------
     >>> import gearlube as gl
+    >>> oil = gl.Lubricant.named("fva_3")
     >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
     >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
     >>> found = gl.micropitting_rating(
     ...     pair, (gear, gear), line_load=2e5, load_factor=1.5, pinion_speed=200.0, bulk=370.0,
-    ...     viscosity=gl.dynamic_viscosity(100e-6, 11e-6, 870.0), friction=0.05, permissible=0.3,
+    ...     viscosity=lambda T: oil.state(T).eta0, friction=0.05, permissible=0.3,
     ... )
     >>> round(found.safety, 1)
-    0.4
+    0.5
     """
     w = 1e-3 * check_positive("line_load", line_load, "N/m", "100 N/mm is 1e5 N/m.")
     check_positive("load_factor", load_factor, "", "1 without.")

@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.rating.gears import MM, MPA, UM, Factors, Gears, Pair, RatedGear, both, said
+from gearlube_core.rating.gears import (
+    MM,
+    MPA,
+    UM,
+    Factors,
+    Gears,
+    Pair,
+    RatedGear,
+    StrengthRating,
+    both,
+    said,
+)
 from gearlube_core.rating.life import Line, strength, strength_line
 
 _LAYERS = {"nitrided": 0.1005, "through_hardened": 0.0014}  # rho' [mm]
@@ -25,7 +37,7 @@ def elasticity_factor(gears: Gears) -> float:
     return math.sqrt(1.0 / (math.pi * softness))
 
 
-def contact_lines(
+def _contact_lines(
     gears: Gears, *, oil_viscosity: float, speed: float, radius: float, further: float = 1.0
 ) -> tuple[tuple[Line, Line], Factors, tuple[str, ...]]:
     """Return sigma_HG over cycles [Pa], its factors, and what is missing.
@@ -56,14 +68,6 @@ def contact_lines(
 
     lines = line(gears[0], Z_W[0]), line(gears[1], Z_W[1])
     return lines, {"Z_L": Z_L, "Z_v": Z_v, "Z_R": Z_R, "Z_W": Z_W}, missing
-
-
-def life_of(gears: Gears, cycles: Pair) -> Factors:
-    """Return Z_NT and Y_NT of both members [-]."""
-    return {
-        "Z_NT": both(lambda g, n: strength(g.contact_life, n), gears, cycles),
-        "Y_NT": both(lambda g, n: strength(g.bending_life, n), gears, cycles),
-    }
 
 
 def _work_hardening(gears: Gears, radius: float) -> tuple[Pair, tuple[str, ...]]:
@@ -154,7 +158,7 @@ def tooth_form(
     return ToothForm(Y_F, Y_S, q_s, s_Fn, h, rho_F)
 
 
-def bending_lines(
+def _bending_lines(
     gears: Gears, q_s: Pair, module: float
 ) -> tuple[tuple[Line, Line], Factors, tuple[str, ...]]:
     """Return sigma_FG over cycles [Pa], its factors, and where they leave their range.
@@ -191,3 +195,50 @@ def bending_lines(
     )
     found: Factors = {"Y_drelT": Y_drelT, "Y_RrelT": Y_RrelT, "Y_X": Y_X, "Y_M": Y_M}
     return (lines[0], lines[1]), found, outside
+
+
+def strength_rating(
+    gears: Gears,
+    cycles: Pair,
+    K: Mapping[str, float],
+    *,
+    sigma_H0: float,
+    Z_BD: Pair,
+    sigma_F: float,
+    Y_F: Pair,
+    forms: tuple[ToothForm, ToothForm],
+    Y_B: Pair,
+    module: float,
+    film: Mapping[str, float],
+    found: Factors,
+    outside: tuple[str, ...],
+    standard: str,
+) -> StrengthRating:
+    """Return the rating of nominal stresses [MPa], load factors and conditions of the film.
+
+    sigma_F is F/(b m_n) with the Y factors of both members; `film` is as for the contact strength.
+    """
+    shock = K["K_A"] * K["K_gam"]
+    stress = sigma_H0 * math.sqrt(shock * K["K_v"] * K["K_Hb"] * K["K_Ha"]) / MPA
+    sigma_F0 = both(lambda Y, form, rim: sigma_F * Y * form.Y_S * rim, Y_F, forms, Y_B)
+    loads = shock * K["K_v"] * K["K_Fb"] * K["K_Fa"] / MPA
+    contact, strength_H, missing = _contact_lines(gears, **film)
+    bending, strength_F, notched = _bending_lines(gears, both(lambda f: f.q_s, forms), module)
+    form = {
+        name: (getattr(forms[0], name), getattr(forms[1], name)) for name in ToothForm._fields[1:]
+    }
+    return StrengthRating(
+        contact_stress=both(lambda Z_B: Z_B * stress, Z_BD),
+        bending_stress=both(lambda s: s * loads, sigma_F0),
+        contact_lines=contact,
+        bending_lines=bending,
+        cycles=cycles,
+        factors={
+            **K, **found, "sigma_H0": sigma_H0, "Z_BD": Z_BD, "Y_F": Y_F, **form, "Y_B": Y_B,
+            "sigma_F0": sigma_F0, **strength_H, **strength_F,
+            "Z_NT": both(lambda g, n: strength(g.contact_life, n), gears, cycles),
+            "Y_NT": both(lambda g, n: strength(g.bending_life, n), gears, cycles),
+        },
+        outside=outside + missing + notched,
+        standard=standard,
+    )  # fmt: skip

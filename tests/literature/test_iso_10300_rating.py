@@ -93,8 +93,8 @@ def hypoid() -> StrengthRating:
     [
         ("eps_va", 1.165), ("eps_vb", 1.227), ("l_bm", 22.442), ("rho_rel", 12.459),
         ("Z_MB", 0.916), ("Z_LS", 0.935), ("Z_Hyp", 1.0), ("F_n", 14193.3), ("K_v", 1.020),
-        ("K_Ha", 1.161), ("K_F0", 1.0), ("sigma_H0", 1168.5), ("Y_Fa", (2.033, 2.480)),
-        ("Y_Sa", (2.022, 1.706)), ("Y_BS", 1.054), ("sigma_F0", (316.5, 325.9)),
+        ("K_Ha", 1.161), ("K_F0", 1.0), ("sigma_H0", 1168.5), ("Y_F", (2.033, 2.480)),
+        ("Y_S", (2.022, 1.706)), ("Y_BS", 1.054), ("sigma_F0", (316.5, 325.9)),
     ],
 )  # fmt: skip
 def test_factors_of_sample_1_are_the_printed_ones(bevel, name, printed):
@@ -106,7 +106,7 @@ def test_factors_of_sample_1_are_the_printed_ones(bevel, name, printed):
     [
         ("eps_va", 1.010), ("eps_vb", 2.096), ("l_bm", 13.397), ("rho_rel", 17.926),
         ("Z_MB", 0.963), ("Z_LS", 0.703), ("Z_Hyp", 0.952), ("F_n", 15298.7), ("K_v", 1.016),
-        ("K_Ha", 1.0), ("K_F0", 1.060), ("Y_Fa", (2.047, 2.403)), ("Y_Sa", (1.903, 1.690)),
+        ("K_Ha", 1.0), ("K_F0", 1.060), ("Y_F", (2.047, 2.403)), ("Y_S", (1.903, 1.690)),
         ("Y_BS", 1.909),
     ],
 )  # fmt: skip
