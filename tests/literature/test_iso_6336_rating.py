@@ -175,6 +175,8 @@ def test_a_hard_pinion_hardens_a_soft_wheel_and_missing_hardness_is_said():
     gears = replace(CASE, flank_roughness=1e-6), SOFT
     rated = rated_fzg(gears)
     assert rated.factors["Z_W"] == (1.0, pytest.approx(1.135, abs=5e-4))  # HB 240, smooth
+    rough = rated_fzg((replace(CASE, flank_roughness=10e-6), SOFT))
+    assert rough.factors["Z_W"][1] < 1.05  # a rough hard flank wears the soft one
     none = replace(SOFT, brinell=None)
     blind = rated_fzg((gears[0], none))
     assert blind.factors["Z_W"] == (1.0, 1.0)
