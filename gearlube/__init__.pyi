@@ -219,13 +219,13 @@ from gearlube_core.rating.bearing_life import bearing_life as bearing_life
 from gearlube_core.rating.bearing_life import life_of_spectrum as life_of_spectrum
 from gearlube_core.rating.contact_temperature import contact_temperature as contact_temperature
 from gearlube_core.rating.contact_temperature import scuffing_probability as scuffing_probability
-from gearlube_core.rating.scuffing import ScuffingOil as ScuffingOil
+from gearlube_core.rating.flank_load import FlankOil as FlankOil
+from gearlube_core.rating.flank_load import FlankLoad as FlankLoad
 from gearlube_core.rating.scuffing import flash_rating as flash_rating
 from gearlube_core.rating.scuffing import integral_rating as integral_rating
 from gearlube_core.rating.micropitting import specific_film as specific_film
 from gearlube_core.rating.micropitting import permissible_film as permissible_film
 from gearlube_core.rating.micropitting import micropitting_rating as micropitting_rating
-from gearlube_core.rating.micropitting import bulk_temperature as bulk_temperature
 from gearlube_core.rating.subsurface import hardness_profile as hardness_profile
 from gearlube_core.rating.subsurface import shear_amplitude as shear_amplitude
 from gearlube_core.rating.subsurface import flank_fracture as flank_fracture

@@ -179,6 +179,11 @@ class StrengthRating(NamedTuple):
     outside: tuple[str, ...]  # limits that the gears exceed, and what is missing, in words
     standard: str  # with edition and letter of the method
 
+    def number(self, name: str) -> float:
+        """Return a factor of the mesh, or that of the pinion."""
+        value = self.factors[name]
+        return value[0] if isinstance(value, tuple) else value
+
     @property
     def contact_strength(self) -> Pair:
         """sigma_HG at the cycles [Pa]."""

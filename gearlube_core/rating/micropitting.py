@@ -10,10 +10,8 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
-from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.rating.gears import MM, MPA, Gears, said
-from gearlube_core.rating.scuffing import path_points, tip_contact_ratios
-from gearlube_core.rating.strength import elasticity_factor
+from gearlube_core.rating.flank_load import FlankLoad
+from gearlube_core.rating.gears import MM, MPA, said
 
 Viscosity = Callable[[float], float]  # eta [Pa.s] at a temperature [K]
 _T_38 = 311.0  # K
@@ -168,17 +166,11 @@ def permissible_film(
 
 
 def micropitting_rating(
-    pair: HelicalPair,
-    gears: Gears,
+    load: FlankLoad,
     *,
-    line_load: float,
-    load_factor: float,
-    pinion_speed: float,
-    viscosity: Viscosity,
-    bulk: float,
-    friction: float,
     permissible: float,
-    oil: str = "mineral",
+    bulk: float | None = None,
+    friction: float | None = None,
     contact: float | None = None,
 ) -> MicropittingRating:
     """Return the specific film along the path of contact by method B, and its safety.
@@ -187,57 +179,53 @@ def micropitting_rating(
 
     Parameters
     ----------
-    pair, gears
-        Geometry, moduli and R_a.
-    line_load
-        F_t/b without load factors [N/m].
-    load_factor
-        Their product [-].
-    pinion_speed
-        [rad/s]
-    viscosity, bulk, friction, oil, contact
-        As of `specific_film`; see `bulk_temperature`.
+    load
+        Pair, oil, load and speed.
     permissible
         lambda_GFP, see `permissible_film` [-].
+    bulk, friction, contact
+        As of `specific_film`; None: by the standard's formulas.
 
     Notes
     -----
-    Load without profile modification, see `path_points`. Source: [iso_6336_22].
+    Load of flanks without modification. Source: [iso_6336_22].
 
     Examples
     --------
     >>> import gearlube as gl
-    >>> oil = gl.Lubricant.named("fva_3")
     >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
     >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> found = gl.micropitting_rating(
-    ...     pair, (gear, gear), line_load=2e5, load_factor=1.5, pinion_speed=200.0, bulk=370.0,
-    ...     viscosity=lambda T: oil.state(T).eta0, friction=0.05, permissible=0.3,
+    >>> oil = gl.FlankOil.of(gl.Lubricant.named("fva_3"), temperature=363.0)
+    >>> load = gl.FlankLoad(
+    ...     pair=pair, gears=(gear, gear), oil=oil, line_load=2e5, load_factor=1.5,
+    ...     pinion_speed=200.0,
     ... )
-    >>> round(found.safety, 1)
-    0.5
+    >>> round(gl.micropitting_rating(load, permissible=0.3).safety, 1)
+    0.4
     """
-    w = 1e-3 * check_positive("line_load", line_load, "N/m", "100 N/mm is 1e5 N/m.")
-    check_positive("load_factor", load_factor, "", "1 without.")
-    check_positive("pinion_speed", pinion_speed, "rad/s", "1000 rpm is 104.7 rad/s.")
-    path, cos_b = path_points(pair), math.cos(pair.base_helix_angle)
+    check_positive("permissible", permissible, "", "0.1 to 0.5 is usual.")
+    pair, path = load.pair, load.path
     r1, r2 = path.pinion_radius, path.gear_radius
+    cos_b, turn = math.cos(pair.base_helix_angle), 1e-3 * load.pinion_speed
     rho = r1 * r2 / (r1 + r2) / cos_b
-    p = w * path.share / (rho * math.cos(pair.transverse_pressure_angle))
-    Z_E = elasticity_factor(gears)
-    p = Z_E * np.sqrt(p * load_factor) / MPA
-    speeds = 1e-3 * pinion_speed * r1, 1e-3 * pinion_speed / pair.ratio * r2
+    pressure = load.w * path.share / (rho * math.cos(pair.transverse_pressure_angle))
     points = specific_film(
-        rho / MM, p, speeds, viscosity=viscosity, bulk=bulk, friction=friction,
-        roughness=0.5e-6 * sum(g.R_a for g in gears), oil=oil, contact=contact,
-        modulus=2.0 * math.pi * Z_E**2 / MPA,
-    )  # fmt: skip
+        rho / MM,
+        np.sqrt(load.E_r / (2.0 * math.pi) * pressure) / MPA,
+        (turn * r1, turn / pair.ratio * r2),
+        viscosity=load.oil.viscosity,
+        bulk=load.bulk_temperature if bulk is None else bulk,
+        friction=load.mean_friction if friction is None else friction,
+        roughness=0.5e-6 * sum(g.R_a for g in load.gears),
+        oil=load.oil.kind,
+        contact=contact,
+        modulus=load.E_r / MPA,
+    )
     helix, angle = math.degrees(pair.helix_angle), math.degrees(pair.normal_pressure_angle)
-    m, v = MM * pair.normal_module, pinion_speed * pair.pinion_reference_radius
-    e_n = pair.transverse_contact_ratio / cos_b**2
+    m, e_n = MM * pair.normal_module, pair.transverse_contact_ratio / cos_b**2
     outside = said(
         (3.0 <= m <= 11.0, f"module within 3 to 11 mm, got {m:.2f} mm"),
-        (8.0 <= v <= 60.0, f"pitch line speed within 8 to 60 m/s, got {v:.1f} m/s"),
+        (8.0 <= load.v <= 60.0, f"pitch line speed within 8 to 60 m/s, got {load.v:.1f} m/s"),
         (helix <= 25.0, f"helix angle up to 25 deg, got {helix:.1f} deg"),
         (angle <= 25.0, f"normal pressure angle up to 25 deg, got {angle:.1f} deg"),
         (e_n < 2.5, f"virtual contact ratio below 2.5, got {e_n:.2f}"),
@@ -245,36 +233,3 @@ def micropitting_rating(
     return MicropittingRating(
         path.gamma, points, permissible, outside, "ISO/TS 6336-22:2018, method B"
     )
-
-
-def bulk_temperature(
-    pair: HelicalPair, *, oil_temperature: float, power: float, friction: float, supply: float = 1.0
-) -> float:
-    """Return T_M of the teeth [K], where no thermal model has it.
-
-    T_M = T_oil + 7400 (P mu H_v/(a b))^0.72 X_S/1.2, P in kW, a and b in mm
-    H_v = (1 - eps_a + eps_1^2 + eps_2^2)(1/z1 + 1/z2) pi/cos(beta_b)
-
-    Parameters
-    ----------
-    oil_temperature, power
-        [K], [W]
-    friction, supply
-        mu_m, and X_S: 1 in a bath [-].
-
-    Notes
-    -----
-    Without tip relief. Source: [iso_6336_22].
-
-    Examples
-    --------
-    >>> import gearlube as gl
-    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> round(bulk_temperature(pair, oil_temperature=350.0, power=50e3, friction=0.05))
-    360
-    """
-    e1, e2 = tip_contact_ratios(pair)
-    H_v = (1.0 - e1 - e2 + e1 * e1 + e2 * e2) * math.pi / math.cos(pair.base_helix_angle)
-    H_v *= 1.0 / pair.pinion_teeth + 1.0 / pair.gear_teeth
-    size = MM * pair.centre_distance * MM * pair.face_width
-    return oil_temperature + 7400.0 * (1e-3 * power * friction * H_v / size) ** 0.72 * supply / 1.2

@@ -25,11 +25,11 @@ def ETA(T: float) -> float:
     return walther_kinematic_viscosity(*WALTHER, T) * (890.0 - 0.7 * (T - 289.0))
 
 
-RATED = {
-    "line_load": 666.85e3, "load_factor": 1.25 * 1.092 * 1.15 * 1.069,
-    "pinion_speed": 1165.9 * math.pi / 30.0, "viscosity": ETA, "bulk": 358.15, "friction": 0.02966,
-    "permissible": 0.143,
-}  # fmt: skip
+OIL = gl.FlankOil(temperature=353.15, viscosity=ETA, viscosity_40=220e-6)
+LOAD = gl.FlankLoad(
+    pair=STAGE_3, gears=GEARS, oil=OIL, line_load=666.85e3, load_factor=1.25 * 1.092 * 1.15 * 1.069,
+    pinion_speed=1165.9 * math.pi / 30.0,
+)  # fmt: skip
 
 
 def test_the_oil_of_the_report_has_its_viscosity():
@@ -38,9 +38,8 @@ def test_the_oil_of_the_report_has_its_viscosity():
 
 
 def test_films_of_the_third_stage_are_the_printed_ones():
-    bulk = gl.bulk_temperature(STAGE_3, oil_temperature=353.15, power=5e6, friction=0.02966)
-    assert bulk - 273.15 == pytest.approx(85.0, abs=0.06)
-    found = gl.micropitting_rating(STAGE_3, GEARS, **RATED)
+    assert LOAD.bulk_temperature - 273.15 == pytest.approx(85.0, abs=0.06)
+    found = gl.micropitting_rating(LOAD, permissible=0.143)
     points = found.points
     assert points.pressure[0] == pytest.approx(1014.7e6, rel=1e-3)
     assert int(points.specific.argmin()) == 0  # the point A

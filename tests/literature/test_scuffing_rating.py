@@ -11,8 +11,8 @@ import pytest
 import gearlube as gl
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.contact_temperature import STEEL_EFFUSIVITY
-from gearlube_core.rating.scuffing import contact_ratio_factor, path_points
-from tests.literature.test_iso_6336_rating import STAGE_3, STAGE_3_GEARS
+from gearlube_core.rating.scuffing import contact_ratio_factor
+from tests.literature.test_iso_6336_rating import STAGE_3, STAGE_3_GEARS, rated_stage_3
 
 A = 2e-4  # half width of the contact [m]
 B = STEEL_EFFUSIVITY
@@ -75,14 +75,18 @@ def test_probability_of_scuffing_is_a_half_at_the_mean_and_normal_about_it():
 
 
 GEARS = tuple(replace(g, arithmetic_roughness=0.6e-6) for g in STAGE_3_GEARS)
-OIL = gl.ScuffingOil(
-    temperature=353.15, viscosity=30.09e-3, viscosity_40=220e-6, load_stage=14, test_torque=714.2
-)
-LOAD = {"line_load": 1119.63e3, "pinion_speed": 1165.9 * math.pi / 30.0}
+OIL = gl.FlankOil(
+    temperature=353.15, viscosity=lambda T: 30.09e-3, viscosity_40=220e-6, load_stage=14,
+    test_torque=714.2,
+)  # fmt: skip
+LOAD = gl.FlankLoad(
+    pair=STAGE_3, gears=GEARS, oil=OIL, line_load=666.85e3, load_factor=1119.63 / 666.85,
+    pinion_speed=1165.9 * math.pi / 30.0,
+)  # fmt: skip
 
 
 def test_flash_temperature_of_the_third_stage_is_near_the_printed_one():
-    found = gl.flash_rating(STAGE_3, GEARS, OIL, friction=0.041, **LOAD)
+    found = gl.flash_rating(LOAD, friction=0.041)
     assert found.factors["X_M"] == pytest.approx(50.058, rel=1e-3)
     assert found.factors["X_ab"] == pytest.approx(1.016, abs=1e-3)
     # both ends are equally hot within 3e-4; the report has the end E, 0.529
@@ -93,13 +97,11 @@ def test_flash_temperature_of_the_third_stage_is_near_the_printed_one():
     assert found.factors["theta_fl"] == pytest.approx(75.31, rel=0.06)
     assert found.temperature - 273.15 == pytest.approx(169.50, rel=0.06)
     assert found.safety == pytest.approx(4.156, rel=0.06)
-    assert path_points(STAGE_3).share[0] == pytest.approx(0.889, abs=1e-3)
+    assert LOAD.path.share[0] == pytest.approx(0.889, abs=1e-3)
 
 
 def test_integral_temperature_of_the_third_stage_is_the_printed_one():
-    found = gl.integral_rating(
-        STAGE_3, GEARS, OIL, tip_relief=2e-6, effective_relief=44.74e-6, **LOAD
-    )
+    found = gl.integral_rating(LOAD, tip_relief=2e-6, effective_relief=44.74e-6)
     printed = {
         "K_Bg": 1.2735, "X_R": 0.7124, "X_BE": 0.2295, "X_eps": 0.2628, "X_Ca": 1.0949, "X_Q": 1.0,
         "theta_flaint": 16.25,
@@ -122,16 +124,16 @@ def test_the_contact_ratio_factor_has_no_steps():
 
 
 def test_the_flash_formula_agrees_with_the_integral_over_the_contact():
-    found = gl.flash_rating(STAGE_3, GEARS, OIL, friction=0.041, **LOAD)
-    path = path_points(STAGE_3)
+    found = gl.flash_rating(LOAD, friction=0.041)
+    path = LOAD.path
     k = int(np.argmin(np.abs(path.gamma - found.gamma)))
-    omega = LOAD["pinion_speed"]
+    omega = LOAD.pinion_speed
     u_1 = omega * 1e-3 * path.pinion_radius[k]
     u_2 = omega / STAGE_3.ratio * 1e-3 * path.gear_radius[k]
     rho = 1e-3 / (1.0 / path.pinion_radius[k] + 1.0 / path.gear_radius[k])
     rho /= math.cos(STAGE_3.base_helix_angle)
     # per length of the contact line, normal to the flank
-    w = path.share[k] * LOAD["line_load"] / math.cos(STAGE_3.transverse_pressure_angle)
+    w = path.share[k] * 1e3 * LOAD.w / math.cos(STAGE_3.transverse_pressure_angle)
     modulus = 206e9 / (1.0 - 0.09)
     a = math.sqrt(8.0 * w * rho / (math.pi * modulus))
     x = np.linspace(-a, a, 401)
@@ -143,13 +145,18 @@ def test_the_flash_formula_agrees_with_the_integral_over_the_contact():
 
 
 def test_gears_outside_of_the_range_of_the_standard_are_named():
-    steep = replace(STAGE_3, helix_angle=math.radians(10.0))
-    assert gl.flash_rating(steep, GEARS, OIL, **LOAD).outside == ()
-    fast = {**LOAD, "pinion_speed": 600.0}
-    assert (
-        "pitch line speed below 80 m/s" in gl.flash_rating(STAGE_3, GEARS, OIL, **fast).outside[0]
-    )
+    assert gl.flash_rating(LOAD).outside == ()
+    said = gl.flash_rating(replace(LOAD, pinion_speed=600.0)).outside
+    assert "pitch line speed below 80 m/s" in said[0]
     with pytest.raises(ParameterError, match="line_load must be above 0 N/m"):
-        gl.flash_rating(STAGE_3, GEARS, OIL, line_load=0.0, pinion_speed=100.0)
+        replace(LOAD, line_load=0.0)
     with pytest.raises(ParameterError, match=r"temperature must be within .* 80 degC is 353\.15 K"):
         replace(OIL, temperature=80.0)
+    with pytest.raises(ParameterError, match="load_stage of the oil must be given"):
+        gl.flash_rating(replace(LOAD, oil=replace(OIL, load_stage=None)))
+
+
+def test_a_rating_hands_its_load_on():
+    load = gl.FlankLoad.of(rated_stage_3(), STAGE_3, GEARS, OIL)
+    assert load.w == pytest.approx(1119.63, rel=1e-3)
+    assert load.pinion_speed == pytest.approx(LOAD.pinion_speed)
