@@ -7,6 +7,7 @@ from collections.abc import Callable
 from types import MappingProxyType
 
 import numpy as np
+from scipy.optimize import brentq
 
 from gearlube_core.arrays import Array
 from gearlube_core.errors import ParameterError
@@ -37,7 +38,7 @@ BENDING = MappingProxyType(
 )
 TREATMENTS = tuple(PITTING)
 _LEAST, _MOST = 1e-4, 1e4  # of a torque factor
-_TIGHT = 1e-10
+_SMALL = 1e-9  # a damage that counts as none
 
 
 def strength_line(factors: Line, limit: float, influence: float) -> Line:
@@ -138,7 +139,6 @@ def torque_factor(damage: Callable[[float], float]) -> float:
     >>> round(found, 3), round(damage(found), 6)
     (1.085, 1.0)
     """
-    low, high = math.log(_LEAST), math.log(_MOST)
     if damage(_LEAST) >= 1.0:
         raise ParameterError(
             f"Damage must be below 1 at {_LEAST:g} times the torque, got {damage(_LEAST):g}. "
@@ -146,7 +146,8 @@ def torque_factor(damage: Callable[[float], float]) -> float:
         )
     if damage(_MOST) < 1.0:
         return math.inf
-    while high - low > _TIGHT:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if damage(math.exp(middle)) < 1.0 else (low, middle)
-    return math.exp(low)
+
+    def height(x: float) -> float:
+        return math.log(min(max(damage(math.exp(x)), _SMALL), 1.0 / _SMALL))
+
+    return math.exp(brentq(height, math.log(_LEAST), math.log(_MOST), xtol=1e-9))
