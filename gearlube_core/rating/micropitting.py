@@ -222,13 +222,15 @@ def micropitting_rating(
         modulus=load.E_r / MPA,
     )
     helix, angle = math.degrees(pair.helix_angle), math.degrees(pair.normal_pressure_angle)
-    m, e_n = MM * pair.normal_module, pair.transverse_contact_ratio / cos_b**2
+    m, e = MM * pair.normal_module, pair.transverse_contact_ratio
+    e_n = e / cos_b**2
     outside = said(
         (3.0 <= m <= 11.0, f"module within 3 to 11 mm, got {m:.2f} mm"),
         (8.0 <= load.v <= 60.0, f"pitch line speed within 8 to 60 m/s, got {load.v:.1f} m/s"),
         (helix <= 25.0, f"helix angle up to 25 deg, got {helix:.1f} deg"),
         (angle <= 25.0, f"normal pressure angle up to 25 deg, got {angle:.1f} deg"),
         (e_n < 2.5, f"virtual contact ratio below 2.5, got {e_n:.2f}"),
+        (e <= 2.0 or pair.overlap_ratio >= 1.0, f"spur contact ratio up to 2, got {e:.2f}"),
     )
     return MicropittingRating(
         path.gamma, points, permissible, outside, "ISO/TS 6336-22:2018, method B"

@@ -12,7 +12,7 @@ import gearlube as gl
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.contact_temperature import STEEL_EFFUSIVITY
 from gearlube_core.rating.scuffing import contact_ratio_factor
-from tests.literature.test_iso_6336_rating import STAGE_3, STAGE_3_GEARS, rated_stage_3
+from tests.literature.test_iso_6336_rating import FZG_C, STAGE_3, STAGE_3_GEARS, rated_stage_3
 
 A = 2e-4  # half width of the contact [m]
 B = STEEL_EFFUSIVITY
@@ -160,3 +160,13 @@ def test_a_rating_hands_its_load_on():
     load = gl.FlankLoad.of(rated_stage_3(), STAGE_3, GEARS, OIL)
     assert load.w == pytest.approx(1119.63, rel=1e-3)
     assert load.pinion_speed == pytest.approx(LOAD.pinion_speed)
+
+
+def test_teeth_in_contact_share_the_whole_load():
+    spur = replace(LOAD, pair=FZG_C).path
+    x = spur.pinion_radius
+    pitch = 1e3 * FZG_C.base_pitch
+    double = (x > x[0]) & (x + pitch <= x[-1])  # at A the next pair stands on the step at D
+    other = np.interp(x[double] + pitch, x, spur.share)
+    assert spur.share[double] + other == pytest.approx(np.ones(double.sum()), abs=0.01)  # grid
+    assert spur.share.max() == 1.0
