@@ -14,14 +14,19 @@ from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import Checked, Number, Positive
 
-# Cleanliness classes of ISO 4406 for oil with a filter in its circuit, and of grease: A, B of e_C.
-# Those of oil are not checked against the source.
+# Cleanliness classes of ISO 4406 for oil with a filter in its circuit, for a bath without one, and of
+# grease: A, B of e_C. Those of oil are not checked against the source.
 CLEANLINESS = MappingProxyType(
     {
         "-/13/10": (0.0864, 0.5663),
         "-/15/12": (0.0432, 0.9987),
         "-/17/14": (0.0288, 1.6329),
         "-/19/16": (0.0216, 2.3362),
+        "bath -/13/10": (0.0864, 0.5796),
+        "bath -/15/12": (0.0288, 1.141),
+        "bath -/17/14": (0.0133, 1.67),
+        "bath -/19/16": (0.00864, 2.5164),
+        "bath -/21/18": (0.00411, 3.8974),
         "grease, very clean": (0.0864, 0.6796),
         "grease, clean": (0.0432, 1.141),
         "grease, slightly dirty": (0.0177, 1.887),
