@@ -14,8 +14,8 @@ from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import Checked, Number, Positive
 
-# Cleanliness classes of ISO 4406 for oil with a filter in its circuit, for a bath without one, and of
-# grease: A, B of e_C. Those of oil are not checked against the source.
+# Cleanliness classes of ISO 4406 for oil with a filter in its circuit, for a bath without one, and
+# of grease: A, B of e_C. Those of oil are not checked against the source.
 CLEANLINESS = MappingProxyType(
     {
         "-/13/10": (0.0864, 0.5663),
@@ -119,6 +119,11 @@ class RatedBearing(Checked):
     elements: Annotated[int, Number("1", 0, 500)] = 0
     rows: Annotated[int, Number("1", 1, 8)] = 1
     grooves: tuple[float, float] = (0.52, 0.52)
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        for ring, groove in zip(("inner", "outer"), self.grooves, strict=True):
+            check_within(f"groove of the {ring} ring", groove, 0.501, 0.75, "", "0.52 is usual.")
 
     @property
     def law(self) -> _Law:

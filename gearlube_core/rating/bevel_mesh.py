@@ -13,6 +13,7 @@ from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 from gearlube_core.number import Checked, Number, Positive
 from gearlube_core.rating.gears import MM, Pair, both
 
+_METRES = "Give metres, not millimetres."
 _Flank = Literal["drive", "coast"]
 _Crowning = Literal["low", "high"]
 
@@ -65,6 +66,13 @@ class BevelMesh(Checked):
     effective_width: Annotated[float, Number("1", 0.3, 1.0, "0.85 if not known.")] = 0.85
     flank: _Flank = "drive"
     profile_crowning: _Crowning = "low"
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        for name, heights in (("addendum", self.addendum), ("dedendum", self.dedendum)):
+            for role, height in zip(("pinion", "gear"), heights, strict=True):
+                what = f"{name} of the {role} in normal modules"
+                check_within(what, height / self.cones.normal_module, 0.0, 4.0, "", _METRES)
 
     @classmethod
     def of_blank(cls, blank: HypoidBlank, **given: Any) -> BevelMesh:

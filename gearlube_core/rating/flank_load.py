@@ -12,6 +12,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
+from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.number import Checked, Number, Positive
 from gearlube_core.oil.lubricant import Lubricant
@@ -63,6 +64,14 @@ class FlankOil(Checked):
     kind: _Kind = "mineral"
     lubricant_factor: Annotated[float, Number("1", 0.3, 1.5, "1 of mineral oil.")] = 1.0
     supply: Annotated[float, Number("1", 0.1, 2.0, "1 in a bath.")] = 1.0
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if not callable(self.viscosity):
+            raise ParameterError(
+                f"viscosity must be a function of the temperature, got {self.viscosity!r}. Write "
+                "lambda T: 0.03, or take FlankOil.of."
+            )
 
     @classmethod
     def of(cls, oil: Lubricant, **given: Any) -> FlankOil:

@@ -211,3 +211,8 @@ def test_loads_of_tapered_rollers_bear_both_loads_and_a_loose_row_is_refused():
     assert (loads * np.cos(angle)).sum() * math.cos(a) == pytest.approx(5000.0, rel=1e-6)
     with pytest.raises(ParameterError, match="axial_load must hold the rollers"):
         gl.tapered_loads(geometry, axial_load=100.0, radial_load=5000.0)
+
+
+def test_a_groove_that_is_none_is_refused():
+    with pytest.raises(ParameterError, match=r"groove of the outer ring must be within 0\.501"):
+        replace(BALL, grooves=(0.52, 0.5))

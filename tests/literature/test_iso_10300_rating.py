@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.rating.bevel_mesh import BevelMesh
@@ -167,3 +168,8 @@ def test_a_blank_gives_the_mesh_of_its_cones():
     assert mesh.cones.normal_module == pytest.approx(blank.mean_normal_module, rel=1e-12)
     assert mesh.diameters[0] == pytest.approx(2e3 * blank.pinion.mean_pitch_radius, rel=1e-9)
     assert sum(mesh.addendum) == pytest.approx(blank.working_depth)
+
+
+def test_heights_in_millimetres_are_refused():
+    with pytest.raises(ParameterError, match="addendum of the pinion in normal modules must be"):
+        replace(SPIRAL_BEVEL, addendum=(4.837, 1.590))

@@ -152,6 +152,8 @@ def test_gears_outside_of_the_range_of_the_standard_are_named():
         replace(LOAD, line_load=0.0)
     with pytest.raises(ParameterError, match=r"temperature must be within .* 80 degC is 353\.15 K"):
         replace(OIL, temperature=80.0)
+    with pytest.raises(ParameterError, match=r"viscosity must be a function .* got 0\.03"):
+        replace(OIL, viscosity=0.03)
     with pytest.raises(ParameterError, match="load_stage of the oil must be given"):
         gl.flash_rating(replace(LOAD, oil=replace(OIL, load_stage=None)))
 
