@@ -17,33 +17,34 @@ STEEL_DIFFUSIVITY = 12e-6  # k/(rho c) [m2/s]
 _LEAST_PECLET = 5.0
 _SPREAD = 0.15  # of the scuffing temperature [degC], standard deviation
 _ZERO = 273.15
+_Number = Array | float
 
 
 class ContactTemperature(NamedTuple):
-    """Temperature along the way through a contact."""
+    """Temperature along the way through contacts."""
 
-    x: Array  # ends of the cells [m]
-    temperature: Array  # of both surfaces [K]
-    bulk: float  # that a contact without friction has [K]
-    peclet: float  # the smaller u a/(2 kappa)
+    temperature: Array  # of both surfaces at the borders of the cells [K], shape (n + 1, ...)
+    bulk: Array  # that the contact without friction has [K], shape (...)
+    peclet: Array  # the smaller u a/(2 kappa)
     outside: tuple[str, ...]
 
     @property
-    def flash(self) -> float:
+    def flash(self) -> Array:
         """Greatest rise above `bulk` [K]."""
-        return float(self.temperature.max() - self.bulk)
+        return self.temperature.max(axis=0) - self.bulk
 
 
 def contact_temperature(
     x: Array,
     heat: Array,
-    speeds: tuple[float, float],
-    bulk: tuple[float, float],
+    speeds: tuple[_Number, _Number],
+    bulk: tuple[_Number, _Number],
     *,
+    half_width: _Number = 1.0,
     effusivity: tuple[float, float] = (STEEL_EFFUSIVITY, STEEL_EFFUSIVITY),
     diffusivity: float = STEEL_DIFFUSIVITY,
 ) -> ContactTemperature:
-    """Return the temperature of two surfaces that pass a band of heat.
+    """Return the temperature of two surfaces that pass a band of heat, of one contact or many.
 
     T(x) = T_M + 1/(pi^(1/2) (b1 u1^(1/2) + b2 u2^(1/2))) int q(s)/(x - s)^(1/2) ds
     T_M = (b1 u1^(1/2) T1 + b2 u2^(1/2) T2)/(b1 u1^(1/2) + b2 u2^(1/2))
@@ -51,14 +52,17 @@ def contact_temperature(
     Parameters
     ----------
     x
-        Borders of cells along the speeds [m], increasing, shape (n + 1,).
+        Borders of cells along the speeds over `half_width`, increasing, shape (n + 1,).
     heat
         Friction power per area in the cells, mu p |u1 - u2| or that of a solved film, of hypoid
-        gears with the whole sliding speed [W/m2], shape (n,).
+        gears with the whole sliding speed [W/m2], shape (n, ...).
     speeds
-        u1, u2 of both surfaces across the line of contact, relative to it, of one sign [m/s].
+        u1, u2 of both surfaces across the line of contact, relative to it, all of one sign [m/s];
+        numbers or shape (...), as the next two.
     bulk
         T1, T2 of both bodies before the contact [K].
+    half_width
+        a [m]; 1: x is in m.
     effusivity
         b1, b2 = (k rho c)^(1/2) [W s^0.5/(m2 K)].
     diffusivity
@@ -76,36 +80,42 @@ def contact_temperature(
 
     Examples
     --------
-    >>> x = np.linspace(-1e-4, 1e-4, 401)  # Hertz: 0.786 of Blok's unit
-    >>> q = np.sqrt(1.0 - (x[:-1] + x[1:]) ** 2 / 4e-8)
-    >>> found = contact_temperature(x, q, (4.0, 1.0), (350.0, 350.0))
+    >>> x = np.linspace(-1.0, 1.0, 401)  # Hertz: 0.786 of Blok's unit
+    >>> q = np.sqrt(1.0 - (x[:-1] + x[1:]) ** 2 / 4.0)
+    >>> found = contact_temperature(x, q, (4.0, 1.0), (350.0, 350.0), half_width=1e-4)
     >>> unit = (math.pi / 2.0) * 1e-4 / (3.0 * STEEL_EFFUSIVITY * 1e-4**0.5)
-    >>> round(found.flash / unit, 3)
+    >>> round(float(found.flash / unit), 3)
     0.786
     """
     x, heat = np.asarray(x, dtype=float), np.asarray(heat, dtype=float)
-    if x.ndim != 1 or heat.shape != (x.size - 1,) or not (np.diff(x) > 0.0).all():
+    if x.ndim != 1 or heat.shape[:1] != (x.size - 1,) or not (np.diff(x) > 0.0).all():
         raise ParameterError(
             f"x must increase and have one more place than heat, got {x.shape} and {heat.shape}."
         )
-    u1, u2 = speeds
-    if not u1 * u2 > 0.0:
-        raise ParameterError(
-            f"Both speeds must have one sign and not be 0, got {u1:g} and {u2:g} m/s. Take them "
-            "relative to the line of contact."
-        )
-    if u1 < 0.0:
+    u1, u2 = (np.asarray(u, dtype=float) for u in speeds)
+    if not ((u1 > 0.0).all() and (u2 > 0.0).all()):
+        if not ((u1 < 0.0).all() and (u2 < 0.0).all()):
+            raise ParameterError(
+                f"All speeds must have one sign and not be 0, got {u1} and {u2} m/s. Take them "
+                "relative to the line of contact."
+            )
         turned = contact_temperature(
-            -x[::-1], heat[::-1], (-u1, -u2), bulk, effusivity=effusivity, diffusivity=diffusivity
-        )
-        return turned._replace(x=x, temperature=turned.temperature[::-1])
-    takes = effusivity[0] * math.sqrt(u1), effusivity[1] * math.sqrt(u2)
-    T_M = (takes[0] * bulk[0] + takes[1] * bulk[1]) / sum(takes)
+            -x[::-1], heat[::-1], (-u1, -u2), bulk,
+            half_width=half_width, effusivity=effusivity, diffusivity=diffusivity,
+        )  # fmt: skip
+        return turned._replace(temperature=turned.temperature[::-1])
+    a, first, second = (
+        np.asarray(half_width),
+        *(b * np.sqrt(u) for b, u in zip(effusivity, (u1, u2), strict=True)),
+    )
+    T_M = (first * bulk[0] + second * bulk[1]) / (first + second)
     reach = np.sqrt(np.maximum(x[:, None] - x, 0.0))
-    rise = 2.0 * (reach[:, :-1] - reach[:, 1:]) @ heat / (math.sqrt(math.pi) * sum(takes))
-    peclet = min(u1, u2) * 0.25 * (x[-1] - x[0]) / diffusivity
-    outside = () if peclet > _LEAST_PECLET else (f"Peclet number above 5, got {peclet:.2g}",)
-    return ContactTemperature(x, T_M + rise, T_M, peclet, outside)
+    integral = 2.0 * np.tensordot(reach[:, :-1] - reach[:, 1:], heat, axes=1) * np.sqrt(a)
+    rise = integral / (math.sqrt(math.pi) * (first + second))
+    peclet = np.minimum(u1, u2) * 0.25 * (x[-1] - x[0]) * a / diffusivity
+    least = float(peclet.min())
+    outside = () if least > _LEAST_PECLET else (f"Peclet number above 5, got {least:.2g}",)
+    return ContactTemperature(T_M + rise, T_M, peclet, outside)
 
 
 def scuffing_probability(contact: float, scuffing: float, *, spread: float = _SPREAD) -> float:

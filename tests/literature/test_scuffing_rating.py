@@ -57,12 +57,25 @@ def test_heat_flows_from_the_warmer_body_and_both_surfaces_meet():
     assert turned.temperature == pytest.approx(plain.temperature[::-1])
 
 
+def test_many_contacts_are_as_one_by_one():
+    x, heat = band("hertz", 60)
+    widths, u1 = np.array([1.0, 2.0, 0.5]), np.array([4.0, 2.0, 9.0])
+    warm = np.array([350.0, 360.0, 340.0])
+    heats = heat[:, None] * np.array([1.0, 3.0, 0.5])
+    many = gl.contact_temperature(x, heats, (u1, 1.5), (warm, 345.0), half_width=widths)
+    assert many.temperature.shape == (x.size, 3)
+    one = gl.contact_temperature(2.0 * x, 3.0 * heat, (2.0, 1.5), (360.0, 345.0))
+    assert many.temperature[:, 1] == pytest.approx(one.temperature)
+    assert many.flash[1] == pytest.approx(float(one.flash))
+    assert many.peclet[1] == pytest.approx(float(one.peclet))
+
+
 def test_a_slow_contact_is_said_and_opposite_speeds_are_refused():
     x, heat = band("hertz")
     slow = gl.contact_temperature(x, heat, (0.1, 0.2), (350.0, 350.0))
     assert "Peclet number above 5" in slow.outside[0]
     assert gl.contact_temperature(x, heat, SPEEDS, (350.0, 350.0)).outside == ()
-    with pytest.raises(ParameterError, match="one sign and not be 0, got 1 and -1 m/s"):
+    with pytest.raises(ParameterError, match=r"one sign and not be 0, got 1\.0 and -1\.0 m/s"):
         gl.contact_temperature(x, heat, (1.0, -1.0), (350.0, 350.0))
     with pytest.raises(ParameterError, match="one more place than heat"):
         gl.contact_temperature(x, heat[1:], SPEEDS, (350.0, 350.0))
