@@ -140,7 +140,7 @@ class LoadFactors(Checked):
         it, set `transverse` to 1 if that is in it too, and `dynamic` to 1 if the loads are those of
         solved dynamics. See also `face_load_factor` and `bevel_face_factor`.
     application, mesh_load
-        K_A; K_gamma of the worst of several paths of power [-].
+        K_A; K_gamma: 1 with one path of power, 1.1 of three planets, 1.25 of four [-].
     dynamic, transverse, transverse_root, face_root
         K_v, K_H alpha, K_F alpha, K_F beta [-].
 
