@@ -6,7 +6,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import SolidParameters
@@ -22,11 +21,13 @@ from gearlube_core.kernels.jit import kernel
 from gearlube_core.oil.formula_laws import has_own_law
 from gearlube_core.oil.lubricant_state import LubricantState
 
-# behind the numbers of the model: the oil that the numbers behind it belong to, and these
+# behind the numbers of the model: the oil that the numbers behind it belong to, these, and the oil
+# that is asked for
 _OIL = net.N_ARRAY
 _OIL_FLOATS = len(LubricantState._fields) - 2  # without its laws
 _INLET = _OIL + _OIL_FLOATS + 1
-N_FLANK_MODEL = _INLET + count_floats(FilmInlet)
+_GIVEN = _INLET + count_floats(FilmInlet)
+N_FLANK_MODEL = _GIVEN + _OIL_FLOATS
 _LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
 
 
@@ -85,9 +86,13 @@ def _inlet(
 ) -> FilmInlet:
     """Return oil and solids as the film model takes them; kept until the oil changes."""
     oil = film_model[_OIL:_INLET]
-    # as tuples: an index that varies may lie beyond their end, and native code cannot raise
-    same = to_fixed_tuple(oil, _OIL_FLOATS) == lubricant[:_OIL_FLOATS]
-    if not (same and oil[_OIL_FLOATS] == limiting_slope):
+    # an array: an index of a tuple may lie beyond its end, and native code cannot raise
+    given = film_model[_GIVEN:]
+    tuple_to_array(lubricant[:_OIL_FLOATS], given)
+    known = oil[_OIL_FLOATS] == limiting_slope
+    for i in range(_OIL_FLOATS):
+        known = known and oil[i] == given[i]
+    if not known:
         _keep_inlet(lubricant, solid, limiting_slope, film_model)
     return tuple_from_array(film_model[_INLET:], FilmInlet)
 
