@@ -235,6 +235,13 @@ from gearlube_core.rating.life import torque_factor as torque_factor
 from gearlube_core.rating.spectrum import duty_bins as duty_bins
 from gearlube_core.rating.spectrum import spectrum_damage as spectrum_damage
 
+# -- Damage of an axle over a duty cycle
+from gearlube_core.dynamics.hypoid_axle.flank_states import flank_states as flank_states
+from gearlube.damage.bins import read_bins as read_bins
+from gearlube.damage.bins import cycle_bins as cycle_bins
+from gearlube.damage.settings import DamageSettings as DamageSettings
+from gearlube.damage.run import run_damage as run_damage
+
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings
 from gearlube.studies.helical.run import run_helical as run_helical

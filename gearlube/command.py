@@ -227,6 +227,12 @@ COMMANDS = (
         panel=_AXLE,
     ),
     LazyCommand(
+        name="damage",
+        target="gearlube.damage.command:damage",
+        summary="Will it last? Damage of an axle's gears and bearings over a duty cycle.",
+        panel=_AXLE,
+    ),
+    LazyCommand(
         name="vary",
         target="gearlube.variation.command:vary",
         summary="Vary any parameter in a study: grids, samples, scatter.",

@@ -1,0 +1,86 @@
+"""Figures of a damage run: maps on the drawn tooth, and the bins that matter most."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from gearlube.plotting.drawn_tooth import DrawnTooth
+from gearlube.plotting.style import house_style, new_figure
+
+_MAPS = {
+    "pressure_map": ("largest Hertz pressure", "GPa", "magma_r"),
+    "film_map": ("thinnest film over roughness", "", "viridis"),
+    "flash_map": ("greatest rise of temperature", "K", "magma_r"),
+    "heat_map": ("greatest friction power", "W/mm²", "magma_r"),
+    "wear_map": ("wear depth", "µm", "cividis_r"),
+    "local_damage_map": ("local pitting damage", "", "cividis_r"),
+}
+_BARS = {"contact_damage": "pitting damage by the standard", "wear": "wear depth [µm]"}
+_SHOWN, _LEAST = 10, 1e-3  # bins in a chart, and the share of the sum that is shown
+_INSIDE = 99.0  # percent of the cells that the colours span
+
+
+def damage_figures(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the figures by name: maps of each flank that bears load, and bins."""
+    sides = [one for one in ("drive", "coast") if dataset["pressure_map"].sel(side=one).any()]
+    maps = {f"maps_{side}": tooth_figure(dataset.sel(side=side), side) for side in sides}
+    return maps | {"bins": bin_figure(dataset)}
+
+
+def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
+    """Return the maps of one side on the drawn gear tooth; wear and damage of both members."""
+    x, y = dataset["along"].values, dataset["up"].values
+    tooth = DrawnTooth(float(x[0] + x[-1]), float(y[0] + y[-1]))
+    drawn: list[tuple[str, str, str, Any]] = []
+    for name, (words, unit, colours) in _MAPS.items():
+        maps = dataset[name].values
+        if np.nanmax(maps, initial=0.0) > 0.0:
+            each = {words: maps} if maps.ndim == 2 else dict(
+                zip((f"{words}, pinion", f"{words}, gear"), maps, strict=True)
+            )  # fmt: skip
+            drawn += [(title, unit, colours, values) for title, values in each.items()]
+    rows = (len(drawn) + 1) // 2
+    with house_style():
+        figure = new_figure(10.5, 0.9 + 1.75 * rows)
+        axes = figure.subplots(rows, 2, squeeze=False)
+        for ax, (title, unit, colours, values) in zip(axes.ravel(), drawn, strict=False):
+            shown = np.where(values > 0.0, values, np.nan)
+            top = float(np.nanpercentile(shown, _INSIDE))
+            image = ax.pcolormesh(x, y, shown, cmap=colours, vmin=0.0, vmax=top, rasterized=True)
+            tooth.draw(ax, title)
+            figure.colorbar(image, ax=ax, label=unit, shrink=0.85)
+        for ax in axes[:-1].ravel():
+            ax.set_xlabel("")
+        figure.suptitle(
+            f"{side.capitalize()} side over the whole life, on the gear tooth; the pinion where it "
+            "touches the gear",
+            fontsize=10.5,
+        )
+    return figure
+
+
+def bin_figure(dataset: xr.Dataset) -> Any:
+    """Return the bins that do most of the pitting damage by the standard and of the wear."""
+    names = json.loads(dataset.attrs["bins"])
+    kept = {name: words for name, words in _BARS.items() if name in dataset and dataset[name].any()}
+    with house_style():
+        figure = new_figure(10.5, 4.0)
+        for ax, (name, words) in zip(
+            np.ravel(figure.subplots(1, max(len(kept), 1))), kept.items(), strict=False
+        ):
+            values = dataset[name].values
+            worst = np.argsort(values.max(axis=1))[::-1][:_SHOWN]
+            worst = worst[values.max(axis=1)[worst] > _LEAST * values.max(axis=1).sum()]
+            for member, role in enumerate(("pinion", "gear")):
+                places = np.arange(worst.size) + 0.4 * member - 0.2
+                ax.barh(places, values[worst, member], 0.4, label=role)
+            ax.set_yticks(range(worst.size), [names[i] for i in worst], fontsize=8)
+            ax.set_ylim(_SHOWN - 0.5, -0.5)
+            ax.set_xlabel(words)
+            ax.legend(loc="lower right")
+        figure.suptitle("The bins that matter most", fontsize=10.5)
+    return figure

@@ -1,0 +1,101 @@
+"""What one load does to the flanks of an axle, along the engagement and on the drawn tooth."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlube_core.arrays import Array
+from gearlube_core.contact.solid import Solid
+from gearlube_core.dynamics.hypoid_axle.flank_states import FlankStates
+from gearlube_core.rating.contact_temperature import contact_temperature
+from gearlube_core.rating.wear import wear_per_cycle
+
+WIDE, HIGH = 96, 32  # cells of a map, along the tooth and up
+_FINER = 8  # lines between two states
+_ACROSS = np.linspace(-1.0, 1.0, 81)  # along a contact line, over the semi-axis
+_BAND = np.linspace(-1.0, 1.0, 121)  # across it
+# a quantity along the contact line goes with this power of 1 - (y/b)^2
+POWERS = {
+    "pressure": 0.5, "film": 0.0, "flash": 0.75, "heat": 0.5, "pinion_wear": 1.0, "gear_wear": 1.0,
+}  # fmt: skip
+
+
+class FlankDamage(NamedTuple):
+    """Quantities in the middle of the contact lines of `FlankStates`; arrays of shape (N,)."""
+
+    pressure: Array  # of Hertz [Pa]
+    film: Array  # over composite roughness [-]
+    flash: Array  # greatest rise in the contact [K]
+    heat: Array  # greatest friction power over area [W/m2]
+    pinion_wear: Array  # depth that a passing contact takes [m]
+    gear_wear: Array
+    peclet: Array  # of the slower surface [-]; below 5 the rise is less than this
+
+
+def flank_damage(states: FlankStates, solid: Solid, wear_coefficient: float) -> FlankDamage:
+    """Return what the contact of each state does, with the wear coefficient k [1/Pa].
+
+    Examples
+    --------
+    >>> import gearlube as gl
+    >>> axle = gl.read_axle("mohammadpour_2015").axle
+    >>> states = gl.flank_states(axle, torque=100.0, speed=200.0, temperature=353.15)
+    >>> found = flank_damage(states, axle.solid, 5e-18)
+    >>> round(float(found.flash.max()))  # K
+    52
+    """
+    speeds = states.pinion_speed, states.gear_speed
+    capacity = float(solid.density * solid.heat_capacity)
+    effusivity = math.sqrt(float(solid.conductivity) * capacity)
+    middle = 0.5 * (_BAND[1:] + _BAND[:-1])
+    rise = contact_temperature(
+        _BAND, np.sqrt(1.0 - middle**2)[:, None] * states.heat, speeds, (states.bulk, states.bulk),
+        half_width=states.semi_minor, effusivity=(effusivity, effusivity),
+        diffusivity=float(solid.conductivity) / capacity,
+    )  # fmt: skip
+    wear = wear_per_cycle(
+        wear_coefficient, states.line_load, speeds, sliding=states.sliding,
+        asperity_share=states.asperity_share,
+    )  # fmt: skip
+    return FlankDamage(
+        states.pressure, states.film_ratio, rise.flash, states.heat, *wear, rise.peclet
+    )
+
+
+def tooth_maps(
+    states: FlankStates, damage: FlankDamage, tooth_size: tuple[float, float]
+) -> dict[str, Array]:
+    """Return the quantities of `POWERS` on the drawn gear tooth, (HIGH, WIDE); 0: no contact.
+
+    Every point of a flank is passed by the contact line once. Lines are laid between the states, as
+    long as the Hertz ellipse, and cut off at the edges of the tooth. Pressure, temperature and heat
+    are the largest while it passes, the film the thinnest; wear is that of one pass. The pinion is
+    drawn where it touches the gear.
+    """
+    n = states.load.size
+    fine = np.linspace(0.0, n - 1.0, _FINER * n)
+
+    def between(values: Array) -> Array:
+        return np.interp(fine, np.arange(n), values)[:, None]
+
+    at, cells = [], []
+    for axis, (size, count) in enumerate(zip(tooth_size, (WIDE, HIGH), strict=True)):
+        along = between(states.semi_major * states.major[:, axis]) * _ACROSS
+        at.append((between(states.place[:, axis]) + along) / size)
+        cells.append((at[-1] * count).astype(int))
+    inside = (at[0] >= 0.0) & (at[0] < 1.0) & (at[1] >= 0.0) & (at[1] < 1.0)
+    cell = (cells[1] * WIDE + cells[0])[inside]
+    profile = 1.0 - _ACROSS**2
+    maps = {}
+    for name, power in POWERS.items():
+        values = between(getattr(damage, name)) * profile**power
+        values = 1.0 / values if name == "film" else values
+        found = np.zeros(HIGH * WIDE)
+        np.maximum.at(found, cell, values[inside])
+        maps[name] = found.reshape(HIGH, WIDE)
+    film = maps["film"]
+    maps["film"] = np.divide(1.0, film, out=np.zeros_like(film), where=film > 0.0)
+    return maps

@@ -1,0 +1,193 @@
+"""The report of a damage run: verdicts, warnings, maps, worst bins."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from gearlube.damage.summary import SUMMARY_HEAD
+from gearlube.report.numbers import number_text
+from gearlube.report.parts import (
+    GOOD,
+    NOTE,
+    WARNING,
+    Column,
+    Figure,
+    Finding,
+    Input,
+    Number,
+    Report,
+    Table,
+)
+
+_TITLES = {
+    "maps_drive": "Drive side of the teeth",
+    "maps_coast": "Coast side of the teeth",
+    "bins": "The bins that matter most",
+}
+_WORST, _LEAST_PECLET = 3, 5.0
+_MUCH = 0.05  # share of the load at an edge, or outside a model, that is worth a word
+_LIMITS = (
+    "Calculated by the formulas of the standards as implemented here, not certified. Check a "
+    "design against the standard itself.",
+    "Each bin is steady running: no vibration, no shock. Give an application factor for them.",
+    "Pressure, temperature and wear are those of the Hertz ellipse, cut off at the edges of the "
+    "tooth. Where an edge itself presses, the true pressure is higher.",
+    "The local pitting damage takes the solved pressure in the strength line of the standard. That "
+    "line is made for the stress of the standard: the damage ranks places and bins, no more.",
+    "The wear depth is the rate of the new flank times the cycles; its coefficient scatters by 40 "
+    "to 60 % in one test. Flanks of hypoid gears slide everywhere: no place is without wear.",
+    "Without film.bulk_resistance_k_w in the axle file the flanks are as warm as the oil.",
+)
+_CAPTION = (
+    "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact. "
+    "The pinion's values are drawn where the pinion touches the gear."
+)
+
+
+def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = ()) -> Report:
+    """Return the report of `run_damage`, with the pictures in the folder `figures`."""
+    hours = number_text(float(dataset["hours"].sum()))
+    pictures = {path.stem: path.read_bytes() for path in figures.glob("*.png")}
+    return Report(
+        study="damage",
+        title=f"Damage of {dataset.attrs['axle']}",
+        subtitle=f"{dataset.attrs['duty']}: {dataset.sizes['bin']} bins, {hours} h",
+        findings=findings(dataset),
+        numbers=_numbers(dataset),
+        figures=[
+            Figure(name=name, title=title, caption=_CAPTION, picture=pictures[name])
+            for name, title in _TITLES.items()
+            if name in pictures
+        ],
+        tables=[
+            Table(
+                title="Summary",
+                columns=[Column(one) for one in SUMMARY_HEAD],
+                rows=json.loads(dataset.attrs["summary"]),
+                caption="Safety of gears: the factor on all torques at which the damage is 1.",
+            )
+        ],
+        inputs=inputs,
+        limits=_LIMITS,
+        files=("damage.nc", "damage.csv", "summary.csv"),
+    )
+
+
+def findings(dataset: xr.Dataset) -> list[Finding]:
+    """Return what the run says, the most important first."""
+    found = [
+        Finding(WARNING, f"{row[0]}: {row[5]}, {row[1]}.", f"By {row[6]}.")
+        for row in json.loads(dataset.attrs["summary"])
+        if row[5] in ("fails", "solve the worn flank") or row[5].startswith("high risk")
+    ]
+    outside = [f"Outside the standard: {one}." for one in dataset.attrs["outside"].splitlines()]
+    return [
+        *found,
+        *_strength(dataset),
+        _worst(dataset),
+        *_doubts(dataset),
+        *(Finding(WARNING, words) for words in outside),
+    ]
+
+
+def _strength(dataset: xr.Dataset) -> list[Finding]:
+    factors = json.loads(dataset.attrs["torque_factors"])
+    if not factors:
+        cure = (
+            "Give --contact-limit-mpa and --bending-limit-mpa; 1500 and 430 MPa are an example of "
+            "case-hardened steel of medium quality."
+        )
+        return [Finding(NOTE, "No strength: the material of the gears is not given.", cure)]
+    each = {f"{mode}, {role}": pair[i] for mode, pair in factors.items()
+            for i, role in enumerate(("pinion", "gear"))}  # fmt: skip
+    mode = min(each, key=lambda one: each[one])
+    stress, local = dataset["contact_stress"].max("member").values, dataset["pressure"].values
+    i = int(np.nanargmax(stress))
+    return [
+        Finding(
+            GOOD if each[mode] >= 1.0 else WARNING,
+            f"The damage is 1 at {number_text(each[mode])} times all torques: {mode}.",
+            "By ISO 10300-2, -3:2023, method B1, with Miner's sum.",
+        ),
+        Finding(
+            NOTE,
+            f"The standard's contact stress is {number_text(1e-3 * stress[i] / local[i])} times "
+            "the solved pressure.",
+            f"In the bin {_bins(dataset)[i]}: {stress[i]:.0f} MPa with all factors, beside "
+            f"{1e3 * local[i]:.0f} MPa. Divide by this factor before you lay local damage beside "
+            "that of the standard.",
+        ),
+    ]
+
+
+def _bins(dataset: xr.Dataset) -> list[str]:
+    return list(json.loads(dataset.attrs["bins"]))
+
+
+def _worst(dataset: xr.Dataset) -> Finding:
+    ranked = {"contact_damage": "pitting damage", "local_damage": "local damage", "wear": "wear"}
+    name = next(
+        (one for one in ranked if one in dataset and float(dataset[one].sum()) > 0.0), "wear"
+    )
+    values = dataset[name].max("member").values
+    shares = 100.0 * values / max(float(values.sum()), 1e-300)
+    order = np.argsort(values)[::-1][:_WORST]
+    parts = "; ".join(f"{_bins(dataset)[i]} ({shares[i]:.0f} %)" for i in order if shares[i] > 0.5)
+    return Finding(NOTE, f"These bins do most of the {ranked[name]}: {parts}.")
+
+
+def _doubts(dataset: xr.Dataset) -> list[Finding]:
+    """Return what limits the solved numbers."""
+    hours, edge = dataset["hours"].values, dataset["at_edge"].values
+    time = hours / hours.sum()
+    thin = 100.0 * time[dataset["film_ratio"].values < 1.0].sum()
+    outside = 100.0 * time[dataset["outside"].values > _MUCH].sum()
+    slow = int((dataset["peclet"].values < _LEAST_PECLET).sum())
+    beyond = int((np.abs(dataset["torque"].values) > dataset.attrs["table_torque_n_m"]).sum())
+    told = (
+        (
+            edge.max() > _MUCH, WARNING,
+            f"Edges of teeth press: up to {100.0 * edge.max():.0f} % of the load, in the bin "
+            f"{_bins(dataset)[int(edge.argmax())]}.",
+            "The maps do not show this pressure. Tip relief or crowning takes it away.",
+        ),
+        (
+            beyond > 0, WARNING,
+            f"{beyond} bins are beyond the torques of the mesh table, "
+            f"{dataset.attrs['table_torque_n_m']:g} N·m.",
+            "Shares of the load are those at its end. Analyse the contact at higher torques.",
+        ),
+        (
+            thin > 0.0, NOTE,
+            f"The film is thinner than the roughness in {thin:.0f} % of the time.",
+            f"The least film ratio is {number_text(float(dataset['film_ratio'].min()))}.",
+        ),
+        (
+            dataset.attrs["film"] == "solved" and outside > 0.0, WARNING,
+            f"In {outside:.0f} % of the time load is outside the model of solved films.",
+            "Film and friction go over into those of the formulas there.",
+        ),
+        (
+            slow > 0, NOTE, f"In {slow} bins the surfaces are slow: Peclet number below 5.",
+            "The rise of temperature there is less than shown.",
+        ),
+    )  # fmt: skip
+    return [Finding(level, *words) for holds, level, *words in told if holds]
+
+
+def _numbers(dataset: xr.Dataset) -> list[Number]:
+    found = [
+        Number("largest Hertz pressure", float(dataset["pressure"].max()), "GPa"),
+        Number("least film over roughness", float(dataset["film_ratio"].min())),
+        Number("greatest contact temperature", float(dataset["contact_temperature"].max()), "°C"),
+    ]
+    for i, role in enumerate(("pinion", "gear")):
+        found.append(Number(f"wear depth, {role}", float(dataset["wear_map"][:, i].max()), "µm"))
+        for mode, pair in json.loads(dataset.attrs["torque_factors"]).items():
+            found.append(Number(f"torque factor, {mode}, {role}", float(pair[i])))
+    return found

@@ -1,0 +1,169 @@
+"""What a damage run takes: an axle, its life in bins, materials, bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+from drivetrain.axle_file.axle_file import AxleFile, CarAxle
+from gearlube_core.bearings.bearing_type import Bearing
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.checks import check_within
+from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
+from gearlube_core.number import Checked, Number
+from gearlube_core.rating.bearing_life import RatedBearing
+from gearlube_core.rating.bevel_mesh import BevelMesh
+from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear, StrengthRating
+from gearlube_core.rating.iso_10300 import bevel_rating
+from gearlube_core.rating.spectrum import DutyBins
+from gearlube_core.rating.wear import MILD
+from gearlube_core.units import ZERO_CELSIUS
+
+_MOST_BINS = 1000
+Rate = Callable[[float, float, float], StrengthRating]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamageSettings(Checked):
+    """An axle, its life in bins, and what its gears and bearings bear.
+
+    Parameters
+    ----------
+    car
+        Axle of an axle file; its mesh table has the places of contact on the tooth.
+    bins
+        Torque on the pinion, speed of the pinion, oil temperature, time of the whole life; see
+        `cycle_bins`, `read_bins`.
+    gears
+        Material of pinion and gear; None: no strength.
+    blank
+        Of the gears, for ISO 10300; None: no rating by the standard.
+    factors
+        K factors of the standard; its loads are those of the bins, without dynamics.
+    wear_coefficient
+        k of Archard's law [1/Pa]; `MILD` is an example, not checked against the source.
+    bearings
+        Of the pinion's and of the gear's shaft, see `rated_bearing`; None: no life.
+    cleanliness
+        Of the oil, a key of `CLEANLINESS`; None: basic life alone.
+    raceway_roughness
+        Composite, of raceways and rollers [m]; with solved films of rollers kappa follows from it.
+    scuffing_temperature
+        At which the oil scuffs, mean of tests [K]; None: no probability of scuffing.
+    duty
+        Words for the bins.
+
+    Examples
+    --------
+    >>> import gearlube as gl
+    >>> bins = gl.duty_bins([3600.0], [100.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
+    >>> DamageSettings(car=gl.read_axle("mohammadpour_2015"), bins=bins).rate is None  # no material
+    True
+    """
+
+    car: CarAxle
+    bins: DutyBins
+    gears: Gears | None = None
+    blank: HypoidBlank | None = None
+    factors: LoadFactors = field(default_factory=lambda: LoadFactors(face=1.65))
+    wear_coefficient: Annotated[float, Number("1/Pa", 0.0, 1e-11, "5e-18 is mild.")] = MILD
+    bearings: tuple[RatedBearing | None, RatedBearing | None] = (None, None)
+    cleanliness: str | None = None
+    raceway_roughness: Annotated[float | None, Number("m", 1e-9, 1e-5, "0.2 um is 2e-7.")] = None
+    scuffing_temperature: Annotated[
+        float | None, Number("K", 300.0, 1000.0, "250 degC is 523 K.")
+    ] = None
+    duty: str = "own bins"
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        cure = "Take wider bins."
+        check_within("the number of bins", self.bins.torque.size, 1, _MOST_BINS, "", cure)
+        limits, oil = torque_limits(self.car.axle), self.car.axle.oil
+        for torque in self.bins.torque:
+            words = limits.pinion_low, limits.pinion_high, "N.m", limits.cure
+            check_within("torque of a bin", torque, *words)
+        for temperature in self.bins.temperature:
+            oil.check_temperature(float(temperature), "temperature of a bin")
+
+    @property
+    def rate(self) -> Rate | None:
+        """The standard's rating over torque [N.m], speed [rad/s], temperature [K]; None: none."""
+        if self.gears is None or self.blank is None:
+            return None
+        meshes = {side: BevelMesh.of_blank(self.blank, flank=side) for side in ("drive", "coast")}
+        nu = float(self.car.axle.oil.state(ZERO_CELSIUS + 40.0).nu)
+        gears = self.gears
+
+        def rated(torque: float, speed: float, temperature: float) -> StrengthRating:
+            return bevel_rating(
+                meshes["coast" if torque < 0.0 else "drive"], gears, self.factors,
+                pinion_torque=abs(torque), pinion_speed=speed, cycles=(1.0, 1.0), oil_viscosity=nu,
+            )  # fmt: skip
+
+        return rated
+
+
+def rated_pair(
+    axle: str, gears: str, treatment: str, contact_mpa: float | None, bending_mpa: float | None
+) -> tuple[Gears | None, HypoidBlank | None]:
+    """Return the material of an axle's gears, and their blank of the gear file; None where missing.
+
+    Parameters
+    ----------
+    axle, gears
+        Axle file, and gear file if that is not named there; paths or shipped names.
+    treatment, contact_mpa, bending_mpa
+        Of both gears, limits in MPa; neither: no strength.
+
+    Raises
+    ------
+    ParameterError
+        One of both limits is missing, or the gear file.
+    """
+    if contact_mpa is None and bending_mpa is None:
+        return None, None
+    if contact_mpa is None or bending_mpa is None:
+        raise ParameterError(
+            f"Both limits of the gears must be given, got contact {contact_mpa} and bending "
+            f"{bending_mpa} MPa. 1500 and 430 MPa are an example of case-hardened steel of medium "
+            "quality."
+        )
+    named = AxleFile.given(axle).gear_set
+    if not gears and named.gear_file is not None:
+        gears = str(Path(axle).parent / named.gear_file)
+    gears = gears or str(named.mesh_table)
+    if not gears.endswith(".toml") and gears not in HypoidGearFile.shipped():
+        raise ParameterError(
+            f"The standard needs the gear file of the axle's gears, got the mesh table {gears!r} "
+            "alone. Name the gear file with --gears."
+        )
+    gear = RatedGear(
+        treatment=treatment, contact_limit=1e6 * contact_mpa, bending_limit=1e6 * bending_mpa
+    )
+    return (gear, gear), HypoidGearFile.given(gears).blank()
+
+
+def rated_bearing(size: Bearing, ratings_kn: Sequence[float] | None) -> RatedBearing | None:
+    """Return tapered rollers with C, or C and C_0 [kN], and the sizes of an axle file's bearing."""
+    if not ratings_kn:
+        return None
+    if not isinstance(size, TaperedRollerBearing) or len(ratings_kn) > 2:
+        raise ParameterError(
+            "Ratings of bearings must be C, or C and C_0, of tapered rollers, got "
+            f"{len(ratings_kn)} of {size.name}. `bearing_life` takes other bearings."
+        )
+    return RatedBearing(
+        kind="radial_roller",
+        dynamic_rating=1e3 * ratings_kn[0],
+        static_rating=1e3 * ratings_kn[1] if len(ratings_kn) > 1 else None,
+        pitch_diameter=0.5 * (size.inner_race_diameter + size.outer_race_diameter),
+        elements=size.n_rollers,
+        element_diameter=size.roller_diameter,
+        contact_angle=size.contact_angle,
+    )

@@ -1,0 +1,84 @@
+"""The summary of a damage run: each mode of failure with value, limit, safety and verdict."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import xarray as xr
+
+from gearlube.damage.settings import DamageSettings
+from gearlube.report.numbers import number_text
+from gearlube_core.rating.contact_temperature import scuffing_probability
+from gearlube_core.units import ZERO_CELSIUS
+
+SUMMARY_HEAD = ("failure mode", "value", "limit", "safety", "required", "verdict", "by")
+_MODES = {
+    "pitting, drive": "contact_damage", "pitting, coast": "contact_damage",
+    "breakage": "bending_damage",
+}  # fmt: skip
+_STANDARD = "ISO 10300-2, -3:2023, method B1; Miner's sum by ISO 6336-6"
+_NO_LIMIT = "no limit given"
+_WEAR_LIMIT = 2.0  # um; beyond, the contact must be solved on the worn flank
+_RISKS = ((0.1, "low risk"), (0.3, "moderate risk"), (1.01, "high risk"))
+
+
+def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[str, ...]]:
+    """Return the rows of the summary, texts in the order of `SUMMARY_HEAD`."""
+    rows = []
+    drive = dataset["torque"].values > 0.0
+    for mode, pair in json.loads(dataset.attrs["torque_factors"]).items():
+        side = {"pitting, drive": drive, "pitting, coast": ~drive}.get(mode, drive | ~drive)
+        if side.any():
+            sums = dataset[_MODES[mode]].values[side].sum(axis=0)
+            for role, total, factor in zip(("pinion", "gear"), sums, pair, strict=True):
+                rows.append(_row(f"{mode}, {role}", total, "1", factor, "1", "safe", _STANDARD))
+    for i, side_name in enumerate(("drive", "coast")):
+        for j, role in enumerate(("pinion", "gear")):
+            local = dataset["local_damage_map"].values[i, j].max()
+            if local > 0.0:
+                name = f"local pitting damage, {side_name}, {role}"
+                by = "solved pressure in the standard's strength line; no safety"
+                rows.append((name, number_text(local), "", "", "", "ranks places alone", by))
+    hot = float(dataset["contact_temperature"].max())
+    limit, verdict, scuffing = "", _NO_LIMIT, settings.scuffing_temperature
+    if scuffing is not None:
+        limit = f"{scuffing - ZERO_CELSIUS:.0f} °C"
+        chance = scuffing_probability(hot + ZERO_CELSIUS, scuffing)
+        risk = next(words for level, words in _RISKS if chance < level)
+        verdict = f"{risk}: {100.0 * chance:.2g} %"
+    by = "Blok's integral with the friction of the flanks; probability as AGMA 925, not checked"
+    rows.append(("scuffing: contact temperature", f"{hot:.0f} °C", limit, "", "", verdict, by))
+    film = float(dataset["film_ratio"].min())
+    by = f"film: {dataset.attrs['film']}; a limit must be solved with the same film"
+    rows.append(("micropitting: least film ratio", number_text(film), "", "", "", _NO_LIMIT, by))
+    for j, role in enumerate(("pinion", "gear")):
+        depth = float(dataset["wear_map"].values[:, j].max())
+        verdict = "within the first rate" if depth <= _WEAR_LIMIT else "solve the worn flank"
+        by = f"Archard, k = {settings.wear_coefficient:g} 1/Pa, the new flank's rate"
+        limit = f"{_WEAR_LIMIT:g} µm"
+        rows.append((f"wear, {role}", f"{number_text(depth)} µm", limit, "", "", verdict, by))
+    for name, words, by in (
+        ("bearing_damage", "basic life", "ISO/TS 16281:2008, load of each roller"),
+        ("bearing_damage_modified", "modified life", "the same with a_ISO"),
+    ):
+        for k, place in enumerate(dataset["bearing"].values):
+            used = dataset[name].values[:, k]
+            asked = name == "bearing_damage" or settings.cleanliness is not None
+            if settings.bearings[k // 2] is None or not asked:
+                continue
+            total, label = float(used.sum()), f"bearing, {place}: {words} used"
+            if np.isnan(total):
+                why = "withheld: C_0 is missing, or kappa below 0.1"
+                rows.append((label, "", "", "", "", why, by))
+                continue
+            life = 1.0 / total if total > 0.0 else np.inf
+            rows.append(_row(label, total, "1", life, "1", "lasts", f"{by}; safety: of life"))
+    return rows
+
+
+def _row(
+    name: str, value: float, limit: str, safety: float, required: str, good: str, by: str
+) -> tuple[str, ...]:
+    verdict = good if safety >= 1.0 else "fails"
+    return name, number_text(value), limit, number_text(safety), required, verdict, by

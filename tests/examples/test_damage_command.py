@@ -1,0 +1,66 @@
+"""The command `gearlube damage` on small lives: table, files, report, refusals."""
+
+import csv
+
+import pytest
+from typer.testing import CliRunner
+
+from gearlube import command as cli
+from gearlube.cli.exit_codes import BAD_ARGUMENT
+
+BINS = "torque_n_m,speed_rpm,temperature_degc,hours\n350,600,90,20\n-60,2500,80,100\n"
+LIMITS = ("--contact-limit-mpa", 1500, "--bending-limit-mpa", 430)
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, ["damage", "mohammadpour_2015", *map(str, arguments)])
+
+
+@pytest.fixture
+def bins(tmp_path):
+    path = tmp_path / "bins.csv"
+    path.write_text(BINS, encoding="utf-8")
+    return path
+
+
+def rows(folder, name):
+    with (folder / name).open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_table_of_bins_gives_summary_maps_and_report(bins, tmp_path):
+    out = tmp_path / "out"
+    done = run("--cycle", bins, *LIMITS, "--pinion-bearings-kn", 88, 110, "--out", out)
+    assert done.exit_code == 0, done.output
+    found = {row["failure mode"]: row for row in rows(out, "summary.csv")}
+    assert float(found["breakage, pinion"]["safety"]) > 1.0
+    assert found["breakage, pinion"]["by"].startswith("ISO 10300-2, -3:2023, method B1")
+    assert "bearing, pinion, first: basic life used" in found
+    assert [float(row["hours_h"]) for row in rows(out, "damage.csv")] == [20.0, 100.0]
+    figures = {path.name for path in (out / "figures").iterdir()}
+    assert figures == {"maps_drive.png", "maps_coast.png", "bins.png"}
+    assert "Damage of" in (out / "report.html").read_text("utf-8")
+
+
+def test_a_cycle_with_a_severe_block(bins, tmp_path):
+    trace, out = tmp_path / "trace.csv", tmp_path / "out"
+    trace.write_text("time_s,speed_kmh\n" + "".join(f"{t},{40 + t / 5}\n" for t in range(0, 61, 5)))
+    done = run("--cycle", trace, "--distance-km", 1000, "--add", bins, "--out", out)
+    assert done.exit_code == 0, done.output
+    found = rows(out, "damage.csv")
+    assert [float(row["torque_n_m"]) for row in found][-2:] == [350.0, -60.0]
+    # 1000 km at 46 km/h
+    assert sum(float(row["hours_h"]) for row in found[:-2]) == pytest.approx(1000 / 46, rel=0.01)
+
+
+def test_one_limit_is_refused_with_an_example(bins, tmp_path, caplog):
+    done = run("--cycle", bins, "--contact-limit-mpa", 1500, "--out", tmp_path / "out")
+    assert done.exit_code == BAD_ARGUMENT
+    assert "1500 and 430 MPa are an example" in caplog.text
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_example_is_a_table_of_bins():
+    done = run("--example")
+    assert done.exit_code == 0
+    assert "torque_n_m, speed_rpm, temperature_degc, hours" in done.output

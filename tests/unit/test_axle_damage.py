@@ -1,0 +1,182 @@
+"""Damage of an axle over bins: sums, factors, verdicts, tables of bins."""
+
+import json
+
+import numpy as np
+import pytest
+
+from drivetrain.axle_file.read_axle import read_axle
+from gearlube.damage.bins import is_bins, joined, read_bins
+from gearlube.damage.report import damage_report, findings
+from gearlube.damage.run import run_damage
+from gearlube.damage.settings import DamageSettings, rated_bearing, rated_pair
+from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.errors import ParameterError
+from gearlube_core.rating.spectrum import DutyBins
+
+GEARS, BLANK = rated_pair("mohammadpour_2015", "", "case_hardened", 1500.0, 430.0)
+
+
+def bins_of(*rows):
+    """Torque [N.m], speed [rad/s], temperature [K], hours."""
+    torque, speed, temperature, hours = np.array(rows).T
+    return DutyBins(torque, speed, temperature, 3600.0 * hours)
+
+
+HARD = bins_of((550.0, 60.0, 360.0, 30.0), (450.0, 60.0, 360.0, 100.0))
+MILD = bins_of((-60.0, 200.0, 350.0, 50.0))
+
+
+@pytest.fixture(scope="module")
+def car():
+    return read_axle("mohammadpour_2015")
+
+
+@pytest.fixture(scope="module")
+def run(car):
+    bearing = rated_bearing(car.axle.bearing, [88.0, 110.0])
+
+    def made(bins, **given):
+        return run_damage(
+            DamageSettings(
+                car=car, bins=bins, gears=GEARS, blank=BLANK, bearings=(bearing, bearing),
+                cleanliness="grease, clean", **given,
+            )
+        )  # fmt: skip
+
+    return made
+
+
+@pytest.fixture(scope="module")
+def both(run):
+    return run(joined(HARD, MILD))
+
+
+def test_damage_adds_over_bins(run, both):
+    hard, mild = run(HARD), run(MILD)
+    for name in ("wear_map", "local_damage_map"):
+        np.testing.assert_allclose(both[name], hard[name] + mild[name], rtol=1e-12)
+    for name in ("contact_damage", "bending_damage", "bearing_damage"):
+        np.testing.assert_allclose(
+            both[name].sum("bin"), hard[name].sum("bin") + mild[name].sum("bin")
+        )
+    assert float(both["contact_damage"].sum()) > 0.0
+
+
+def test_twice_the_time_is_twice_the_damage(run):
+    once, twice = run(HARD), run(HARD._replace(time=2.0 * HARD.time))
+    for name in ("contact_damage", "bending_damage", "wear", "bearing_damage", "local_damage"):
+        np.testing.assert_allclose(twice[name], 2.0 * once[name])
+
+
+def test_torque_factor_scales_with_the_torque(run):
+    factor = {}
+    for part in (1.0, 0.8):
+        found = run(HARD._replace(torque=part * HARD.torque))
+        factor[part] = json.loads(found.attrs["torque_factors"])["breakage"][0]
+    # torques that are 0.8 times as large may grow 1.25 times as much to the same bins
+    assert factor[0.8] / factor[1.0] == pytest.approx(1.25, rel=1e-6)
+
+
+def test_coast_bins_wear_the_coast_flanks_alone(run):
+    found = run(MILD)
+    assert float(found["pressure_map"].sel(side="drive").max()) == 0.0
+    assert float(found["wear_map"].sel(side="coast").min("member").max()) > 0.0
+
+
+def test_local_damage_is_miners_sum_of_the_pressure(run, car):
+    """One bin, at the hottest place: cycles over those of the line between 1e5 and 5e7."""
+    found = run(bins_of((550.0, 60.0, 360.0, 30.0)))
+    rating = DamageSettings(car=car, bins=HARD, gears=GEARS, blank=BLANK).rate(550.0, 60.0, 360.0)
+    (n_1, s_1), (n_2, s_2) = rating.contact_lines[0][:2]
+    peak = 1e9 * float(found["pressure_map"].max())
+    assert s_2 < peak < s_1
+    slope = np.log(n_2 / n_1) / np.log(s_1 / s_2)
+    lasts = n_2 * (s_2 / peak) ** slope
+    expected = float(found["cycles"][0, 0]) / lasts
+    assert float(found["local_damage"][0, 0]) == pytest.approx(expected, rel=1e-9)
+
+
+def test_without_material_there_is_no_strength_but_all_else(car):
+    found = run_damage(DamageSettings(car=car, bins=MILD))
+    modes = [row[0] for row in json.loads(found.attrs["summary"])]
+    assert not any(one.startswith(("pitting", "local", "breakage", "bearing")) for one in modes)
+    assert any("wear" in mode for mode in modes)
+    assert any("1500 and 430" in one.detail for one in findings(found))
+
+
+def test_a_life_that_fails_is_a_warning(run):
+    found = run(HARD._replace(time=1e3 * HARD.time))
+    verdicts = {row[0]: row[5] for row in json.loads(found.attrs["summary"])}
+    assert verdicts["pitting, drive, pinion"] == "fails"
+    warned = [one.headline for one in findings(found) if one.level == "warning"]
+    assert any("pitting, drive, pinion: fails" in one for one in warned)
+    assert any("beyond the torques of the mesh table" in one for one in warned)
+
+
+def test_scuffing_risk_needs_the_temperature_of_the_oil(run):
+    def verdict(**given):
+        rows = json.loads(run(HARD, **given).attrs["summary"])
+        return next(row[5] for row in rows if row[0].startswith("scuffing"))
+
+    assert verdict() == "no limit given"
+    assert verdict(scuffing_temperature=600.0).startswith("low risk")
+    assert verdict(scuffing_temperature=330.0).startswith("high risk")
+
+
+def test_bearing_bears_what_its_rollers_do(run):
+    found = run(HARD)
+    used = found["bearing_damage"].values
+    # the most loaded bearing of the pinion uses most of its life, with the exponent 10/3
+    radial = found["radial_load"].values[:, 0]
+    assert (used[:, 0] > used[:, 1]).all()
+    rate = used[:, 0] / found["cycles"].values[:, 0]
+    assert rate[0] / rate[1] == pytest.approx((radial[0] / radial[1]) ** (10.0 / 3.0), rel=0.2)
+
+
+def test_modified_life_without_its_data_is_withheld(car):
+    bearing = rated_bearing(car.axle.bearing, [88.0])  # no C_0
+    found = run_damage(
+        DamageSettings(car=car, bins=MILD, bearings=(bearing, None), cleanliness="grease, clean")
+    )
+    rows = {row[0]: row[5] for row in json.loads(found.attrs["summary"])}
+    assert rows["bearing, pinion, first: basic life used"] == "lasts"
+    assert "C_0 is missing" in rows["bearing, pinion, first: modified life used"]
+    assert not any("bearing, gear" in one for one in rows)
+
+
+def test_files_and_report(run, tmp_path, car):
+    found = run_damage(DamageSettings(car=car, bins=MILD), folder=tmp_path)
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names == {"damage.nc", "damage.csv", "summary.csv", "figures"}
+    assert (tmp_path / "damage.csv").read_text().startswith("torque_n_m,speed_rpm,temperature_degc")
+    report = damage_report(found, tmp_path / "figures")
+    assert [one.name for one in report.figures] == ["maps_coast", "bins"]
+
+
+def test_bins_are_read_and_refused(tmp_path):
+    path = tmp_path / "bins.csv"
+    path.write_text(
+        "torque_n_m;speed_rpm;temperature_degc;hours\n250;600;90;20\n", encoding="utf-8"
+    )
+    assert is_bins(str(path))
+    found = read_bins(path)
+    assert found.time[0] == 72_000.0
+    assert found.revolutions[0] == pytest.approx(600 * 60 * 20)
+    path.write_text("torque_n_m,speed_rpm,hours\n250,600,20\n", encoding="utf-8")
+    with pytest.raises(ParameterError, match="missing: temperature_degc"):
+        read_bins(path)
+    path.write_text("torque_n_m,speed_rpm,temperature_degc,hours\n1,-5,90,20\n", encoding="utf-8")
+    with pytest.raises(ParameterError, match="above 0"):
+        read_bins(path)
+
+
+def test_bad_settings_are_refused(car):
+    with pytest.raises(ParameterError, match="torque of a bin"):
+        DamageSettings(car=car, bins=bins_of((5000.0, 60.0, 360.0, 1.0)))
+    with pytest.raises(ParameterError, match="temperature of a bin"):
+        DamageSettings(car=car, bins=bins_of((50.0, 60.0, 900.0, 1.0)))
+    with pytest.raises(ParameterError, match="1500 and 430 MPa are an example"):
+        rated_pair("mohammadpour_2015", "", "case_hardened", 1500.0, None)
+    with pytest.raises(ParameterError, match="C and C_0"):
+        rated_bearing(TaperedRollerBearing.mohammadpour_2015(), [1.0, 2.0, 3.0])
