@@ -72,6 +72,9 @@ def damage(
         float,
         typer.Option(help="k of Archard's law [1/Pa]; 5e-18 is an example, not checked."),
     ] = 5e-18,
+    wear_of_all_load: Annotated[
+        bool, typer.Option("--wear-of-all-load", help="Films spare nothing: an upper bound.")
+    ] = False,
     pinion_bearings_kn: Annotated[
         list[float] | None,
         typer.Option(help="C, or C and C_0, of the pinion's bearings [kN].", metavar="C C_0..."),
@@ -144,6 +147,7 @@ def damage(
             blank=blank,
             factors=LoadFactors(face=face_factor, application=application_factor),
             wear_coefficient=wear_coefficient,
+            wear_of_all_load=wear_of_all_load,
             bearings=(
                 rated_bearing(car.axle.bearing, pinion_bearings_kn),
                 rated_bearing(car.axle.gear_bearing or car.axle.bearing, gear_bearings_kn),

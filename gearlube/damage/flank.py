@@ -35,8 +35,12 @@ class FlankDamage(NamedTuple):
     peclet: Array  # of the slower surface [-]; below 5 the rise is less than this
 
 
-def flank_damage(states: FlankStates, solid: Solid, wear_coefficient: float) -> FlankDamage:
+def flank_damage(
+    states: FlankStates, solid: Solid, wear_coefficient: float, *, all_load: bool = False
+) -> FlankDamage:
     """Return what the contact of each state does, with the wear coefficient k [1/Pa].
+
+    All the load wears, or that on asperities alone.
 
     Examples
     --------
@@ -58,7 +62,7 @@ def flank_damage(states: FlankStates, solid: Solid, wear_coefficient: float) -> 
     )  # fmt: skip
     wear = wear_per_cycle(
         wear_coefficient, states.line_load, speeds, sliding=states.sliding,
-        asperity_share=states.asperity_share,
+        asperity_share=1.0 if all_load else states.asperity_share,
     )  # fmt: skip
     return FlankDamage(
         states.pressure, states.film_ratio, rise.flash, states.heat, *wear, rise.peclet

@@ -40,7 +40,8 @@ _LIMITS = (
     "The local pitting damage takes the solved pressure in the strength line of the standard. That "
     "line is made for the stress of the standard: the damage ranks places and bins, no more.",
     "The wear depth is the rate of the new flank times the cycles; its coefficient scatters by 40 "
-    "to 60 % in one test. Flanks of hypoid gears slide everywhere: no place is without wear.",
+    "to 60 % in one test, and the share of the load on asperities differs 30 times between laws of "
+    "friction. Flanks of hypoid gears slide everywhere: no place is without wear.",
     "Without film.bulk_resistance_k_w in the axle file the flanks are as warm as the oil.",
 )
 _CAPTION = (

@@ -170,7 +170,9 @@ def _solved(
     """Return what a bin has, by the names of `_OF_BINS`, and its maps."""
     axle, at = settings.car.axle, [float(one[place]) for one in settings.bins[:3]]
     states = flank_states(axle, torque=at[0], speed=at[1], temperature=at[2])
-    found = flank_damage(states, axle.solid, settings.wear_coefficient)
+    found = flank_damage(
+        states, axle.solid, settings.wear_coefficient, all_load=settings.wear_of_all_load
+    )
     maps = tooth_maps(states, found, axle.mesh.tooth_size or (1.0, 1.0))
     share = states.load / states.load.sum()
     wear = [

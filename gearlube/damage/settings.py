@@ -47,6 +47,9 @@ class DamageSettings(Checked):
         K factors of the standard; its loads are those of the bins, without dynamics.
     wear_coefficient
         k of Archard's law [1/Pa]; `MILD` is an example, not checked against the source.
+    wear_of_all_load
+        Whether films spare nothing: the coefficients of tests count the whole load. False: only the
+        load on asperities wears, a hypothesis; its share depends on the law of friction.
     bearings
         Of the pinion's and of the gear's shaft, see `rated_bearing`; None: no life.
     cleanliness
@@ -72,6 +75,7 @@ class DamageSettings(Checked):
     blank: HypoidBlank | None = None
     factors: LoadFactors = field(default_factory=lambda: LoadFactors(face=1.65))
     wear_coefficient: Annotated[float, Number("1/Pa", 0.0, 1e-11, "5e-18 is mild.")] = MILD
+    wear_of_all_load: bool = False
     bearings: tuple[RatedBearing | None, RatedBearing | None] = (None, None)
     cleanliness: str | None = None
     raceway_roughness: Annotated[float | None, Number("m", 1e-9, 1e-5, "0.2 um is 2e-7.")] = None

@@ -52,10 +52,13 @@ def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[st
     film = float(dataset["film_ratio"].min())
     by = f"film: {dataset.attrs['film']}; a limit must be solved with the same film"
     rows.append(("micropitting: least film ratio", number_text(film), "", "", "", _NO_LIMIT, by))
+    whose, thin = "load on asperities", "ranks places alone"
+    if settings.wear_of_all_load:
+        whose, thin = "all load", "shallow"
     for j, role in enumerate(("pinion", "gear")):
         depth = float(dataset["wear_map"].values[:, j].max())
-        verdict = "within the first rate" if depth <= _WEAR_LIMIT else "solve the worn flank"
-        by = f"Archard, k = {settings.wear_coefficient:g} 1/Pa, the new flank's rate"
+        verdict = thin if depth <= _WEAR_LIMIT else "solve the worn flank"
+        by = f"Archard, k = {settings.wear_coefficient:g} 1/Pa, {whose}, the new flank's rate"
         limit = f"{_WEAR_LIMIT:g} µm"
         rows.append((f"wear, {role}", f"{number_text(depth)} µm", limit, "", "", verdict, by))
     for name, words, by in (

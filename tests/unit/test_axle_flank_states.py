@@ -88,6 +88,12 @@ def test_wear_of_members_is_inverse_to_their_speeds_and_never_zero(axle, states)
     assert found.gear_wear[still] * states.gear_speed[still] > K * load[still] * 1.0  # m/s
 
 
+def test_wear_of_all_load_leaves_out_the_share_of_asperities(axle, states):
+    found = flank_damage(states, axle.solid, K)
+    bound = flank_damage(states, axle.solid, K, all_load=True)
+    np.testing.assert_allclose(bound.pinion_wear * states.asperity_share, found.pinion_wear)
+
+
 def test_maps_hold_what_the_lines_have(axle, states):
     found = flank_damage(states, axle.solid, K)
     maps = tooth_maps(states, found, axle.mesh.tooth_size)
