@@ -118,6 +118,7 @@ def damage(
     from gearlube.damage.settings import DamageSettings, rated_bearing, rated_pair
     from gearlube.damage.summary import SUMMARY_HEAD
     from gearlube.report.inputs import noted_inputs
+    from gearlube.report.parts import Input
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
     from gearlube_core.rating.gears import LoadFactors
     from gearlube_core.units import celsius_to_kelvin
@@ -161,7 +162,21 @@ def damage(
         )
         with run.results() as progress:
             dataset = run_damage(settings, folder=out, progress=progress)
-        report = damage_report(dataset, out / "figures", noted_inputs(car.inputs))
+        given = {
+            "life": duty,
+            "contact limit [MPa]": contact_limit_mpa,
+            "bending limit [MPa]": bending_limit_mpa,
+            "treatment": treatment if material else None,
+            "K_H beta": face_factor,
+            "K_A": application_factor,
+            "k of wear [1/Pa]": wear_coefficient,
+            "wear of all load": wear_of_all_load,
+            "C, C_0 of the pinion's bearings [kN]": pinion_bearings_kn,
+            "C, C_0 of the gear's bearings [kN]": gear_bearings_kn,
+            "cleanliness": cleanliness,
+        }
+        inputs = [Input(name, str(value)) for name, value in given.items() if value is not None]
+        report = damage_report(dataset, out / "figures", [*inputs, *noted_inputs(car.inputs)])
         table = empty_table("Will it last?", *SUMMARY_HEAD[:2], ">safety", "verdict")
         for row in report.tables[0].rows:
             table.add_row(str(row[0]), str(row[1]), str(row[3]), str(row[5]))
