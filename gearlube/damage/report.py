@@ -44,6 +44,7 @@ _LIMITS = (
     "friction. Flanks of hypoid gears slide everywhere: no place is without wear.",
     "Without film.bulk_resistance_k_w in the axle file the flanks are as warm as the oil.",
 )
+_OF_BINS = "The ten bins of the life that do most, each with its torque, speed and oil temperature."
 _CAPTION = (
     "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact. "
     "The pinion's values are drawn where the pinion touches the gear."
@@ -61,7 +62,12 @@ def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = 
         findings=findings(dataset),
         numbers=_numbers(dataset),
         figures=[
-            Figure(name=name, title=title, caption=_CAPTION, picture=pictures[name])
+            Figure(
+                name=name,
+                title=title,
+                caption=_OF_BINS if name == "bins" else _CAPTION,
+                picture=pictures[name],
+            )
             for name, title in _TITLES.items()
             if name in pictures
         ],
