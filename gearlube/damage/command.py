@@ -69,9 +69,9 @@ def damage(
         float, typer.Option(help="K_A: what the torques of the bins lack.")
     ] = 1.0,
     wear_coefficient: Annotated[
-        float,
-        typer.Option(help="k of Archard's law [1/Pa]; 5e-18 is an example, not checked."),
-    ] = 5e-18,
+        float | None,
+        typer.Option(help="k of Archard's law, of your tests [1/Pa]; left out: no wear."),
+    ] = None,
     wear_of_all_load: Annotated[
         bool, typer.Option("--wear-of-all-load", help="Films spare nothing: an upper bound.")
     ] = False,
@@ -170,7 +170,7 @@ def damage(
             "K_H beta": face_factor,
             "K_A": application_factor,
             "k of wear [1/Pa]": wear_coefficient,
-            "wear of all load": wear_of_all_load,
+            "wear of all load": wear_of_all_load if wear_coefficient is not None else None,
             "C, C_0 of the pinion's bearings [kN]": pinion_bearings_kn,
             "C, C_0 of the gear's bearings [kN]": gear_bearings_kn,
             "cleanliness": cleanliness,

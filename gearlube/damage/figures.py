@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -25,10 +26,11 @@ _INSIDE = 99.0  # percent of the cells that the colours span
 
 
 def damage_figures(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the figures by name: maps of each flank that bears load, and bins."""
+    """Return the figures by name: maps of each flank that bears load, and bins with damage."""
     sides = [one for one in ("drive", "coast") if dataset["pressure_map"].sel(side=one).any()]
     maps = {f"maps_{side}": tooth_figure(dataset.sel(side=side), side) for side in sides}
-    return maps | {"bins": bin_figure(dataset)}
+    kept = {name: words for name, words in _BARS.items() if name in dataset and dataset[name].any()}
+    return maps | ({"bins": bin_figure(dataset, kept)} if kept else {})
 
 
 def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
@@ -37,6 +39,8 @@ def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
     tooth = DrawnTooth(float(x[0] + x[-1]), float(y[0] + y[-1]))
     drawn: list[tuple[str, str, str, Any]] = []
     for name, (words, unit, colours) in _MAPS.items():
+        if name not in dataset:
+            continue
         maps = dataset[name].values
         if np.nanmax(maps, initial=0.0) > 0.0:
             each = {words: maps} if maps.ndim == 2 else dict(
@@ -63,14 +67,13 @@ def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
     return figure
 
 
-def bin_figure(dataset: xr.Dataset) -> Any:
-    """Return the bins that do most of the pitting damage by the standard and of the wear."""
+def bin_figure(dataset: xr.Dataset, kept: Mapping[str, str]) -> Any:
+    """Return the bins that do most of each variable; `kept` has its words."""
     names = json.loads(dataset.attrs["bins"])
-    kept = {name: words for name, words in _BARS.items() if name in dataset and dataset[name].any()}
     with house_style():
         figure = new_figure(10.5, 4.0)
         for ax, (name, words) in zip(
-            np.ravel(figure.subplots(1, max(len(kept), 1))), kept.items(), strict=False
+            np.ravel(figure.subplots(1, len(kept))), kept.items(), strict=True
         ):
             values = dataset[name].values
             worst = np.argsort(values.max(axis=1))[::-1][:_SHOWN]

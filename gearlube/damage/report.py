@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from gearlube.damage.summary import SUMMARY_HEAD
+from gearlube.damage.summary import SUMMARY_HEAD, TOO_DEEP
 from gearlube.report.numbers import number_text
 from gearlube.report.parts import (
     GOOD,
@@ -44,7 +44,7 @@ _LIMITS = (
     "friction. Flanks of hypoid gears slide everywhere: no place is without wear.",
     "Without film.bulk_resistance_k_w in the axle file the flanks are as warm as the oil.",
 )
-_OF_BINS = "The ten bins of the life that do most, each with its torque, speed and oil temperature."
+_OF_BINS = "The bins that do most, at most ten, with torque, speed and oil temperature."
 _CAPTION = (
     "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact. "
     "The pinion's values are drawn where the pinion touches the gear."
@@ -90,13 +90,13 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     found = [
         Finding(WARNING, f"{row[0]}: {row[5]}, {row[1]}.", f"By {row[6]}.")
         for row in json.loads(dataset.attrs["summary"])
-        if row[5] in ("fails", "solve the worn flank") or row[5].startswith("high risk")
+        if row[5] in ("fails", TOO_DEEP) or row[5].startswith("high risk")
     ]
-    outside = [f"Outside the standard: {one}." for one in dataset.attrs["outside"].splitlines()]
+    outside = [f"Rating by the standard: {one}." for one in dataset.attrs["outside"].splitlines()]
     return [
         *found,
         *_strength(dataset),
-        _worst(dataset),
+        *_worst(dataset),
         *_doubts(dataset),
         *(Finding(WARNING, words) for words in outside),
     ]
@@ -126,8 +126,8 @@ def _strength(dataset: xr.Dataset) -> list[Finding]:
             f"The standard's contact stress is {number_text(1e-3 * stress[i] / local[i])} times "
             "the solved pressure.",
             f"In the bin {_bins(dataset)[i]}: {stress[i]:.0f} MPa with all factors, beside "
-            f"{1e3 * local[i]:.0f} MPa. Divide by this factor before you lay local damage beside "
-            "that of the standard.",
+            f"{1e3 * local[i]:.0f} MPa. Divide the pressure by this factor before you compare "
+            "local damage with that of the standard.",
         ),
     ]
 
@@ -136,16 +136,16 @@ def _bins(dataset: xr.Dataset) -> list[str]:
     return list(json.loads(dataset.attrs["bins"]))
 
 
-def _worst(dataset: xr.Dataset) -> Finding:
+def _worst(dataset: xr.Dataset) -> list[Finding]:
     ranked = {"contact_damage": "pitting damage", "local_damage": "local damage", "wear": "wear"}
-    name = next(
-        (one for one in ranked if one in dataset and float(dataset[one].sum()) > 0.0), "wear"
-    )
+    name = next((one for one in ranked if one in dataset and dataset[one].any()), None)
+    if name is None:
+        return []
     values = dataset[name].max("member").values
     shares = 100.0 * values / max(float(values.sum()), 1e-300)
     order = np.argsort(values)[::-1][:_WORST]
     parts = "; ".join(f"{_bins(dataset)[i]} ({shares[i]:.0f} %)" for i in order if shares[i] > 0.5)
-    return Finding(NOTE, f"These bins do most of the {ranked[name]}: {parts}.")
+    return [Finding(NOTE, f"These bins do most of the {ranked[name]}: {parts}.")]
 
 
 def _doubts(dataset: xr.Dataset) -> list[Finding]:
@@ -180,6 +180,11 @@ def _doubts(dataset: xr.Dataset) -> list[Finding]:
             "Film and friction go over into those of the formulas there.",
         ),
         (
+            "wear_map" not in dataset, NOTE, "No wear: its coefficient is not given.",
+            "Give --wear-coefficient, of your own tests. For an order of size take 5e-18 1/Pa, "
+            "mild wear of FZG gears in oil, a number from memory.",
+        ),
+        (
             slow > 0, NOTE, f"In {slow} bins the surfaces are slow: Peclet number below 5.",
             "The rise of temperature there is less than shown.",
         ),
@@ -194,7 +199,9 @@ def _numbers(dataset: xr.Dataset) -> list[Number]:
         Number("greatest contact temperature", float(dataset["contact_temperature"].max()), "°C"),
     ]
     for i, role in enumerate(("pinion", "gear")):
-        found.append(Number(f"wear depth, {role}", float(dataset["wear_map"][:, i].max()), "µm"))
+        if "wear_map" in dataset:
+            deepest = float(dataset["wear_map"][:, i].max())
+            found.append(Number(f"wear depth, {role}", deepest, "µm"))
         for mode, pair in json.loads(dataset.attrs["torque_factors"]).items():
             found.append(Number(f"torque factor, {mode}, {role}", float(pair[i])))
     return found

@@ -99,6 +99,9 @@ def run_damage(
         progress(0.9 * i / count, f"bin {i + 1} of {count}")
         solved.append(_solved(settings, rate, i, cycles[i]))
     values = {name: np.array([one[name] for one in solved]) for name in solved[0]}
+    shown = dict(_OF_BINS)
+    if settings.wear_coefficient is None:
+        del shown["wear"]
     outside = ""
     factors: dict[str, tuple[float, float]] = {}
     one: dict[str, tuple[Any, ...]] = {
@@ -107,7 +110,7 @@ def run_damage(
         "temperature": (_BIN, bins.temperature - ZERO_CELSIUS, "degC", "temperature of the oil"),
         "hours": (_BIN, bins.time / 3600.0, "h", "time in the life"),
         "cycles": (_MEMBER, cycles, "1", "load cycles of a tooth"),
-        **{name: (at, values[name], *words) for name, (at, *words) in _OF_BINS.items()},
+        **{name: (at, values[name], *words) for name, (at, *words) in shown.items()},
     }
     if rate is not None:
         progress(0.9, "torque factors")
@@ -130,9 +133,10 @@ def run_damage(
         "film_map": (_SIDE, film, "1", "thinnest film over roughness"),
         "flash_map": (_SIDE, largest("flash_map"), "K", "greatest rise in the contact"),
         "heat_map": (_SIDE, largest("heat_map"), "W/mm2", "greatest friction power over area"),
-        "wear_map": (_BOTH, summed("wear_map"), "um", "wear depth"),
         "local_damage_map": (_BOTH, summed("local_damage_map"), "1", "local pitting damage"),
     }
+    if settings.wear_coefficient is not None:
+        one["wear_map"] = _BOTH, summed("wear_map"), "um", "wear depth"
     size = settings.car.axle.mesh.tooth_size or (1.0, 1.0)
     places = {
         name: (name, 1e3 * length * (np.arange(n) + 0.5) / n, {"units": "mm"})
@@ -171,7 +175,7 @@ def _solved(
     axle, at = settings.car.axle, [float(one[place]) for one in settings.bins[:3]]
     states = flank_states(axle, torque=at[0], speed=at[1], temperature=at[2])
     found = flank_damage(
-        states, axle.solid, settings.wear_coefficient, all_load=settings.wear_of_all_load
+        states, axle.solid, settings.wear_coefficient or 0.0, all_load=settings.wear_of_all_load
     )
     maps = tooth_maps(states, found, axle.mesh.tooth_size or (1.0, 1.0))
     share = states.load / states.load.sum()

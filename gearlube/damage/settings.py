@@ -21,7 +21,6 @@ from gearlube_core.rating.bevel_mesh import BevelMesh
 from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear, StrengthRating
 from gearlube_core.rating.iso_10300 import bevel_rating
 from gearlube_core.rating.spectrum import DutyBins
-from gearlube_core.rating.wear import MILD
 from gearlube_core.units import ZERO_CELSIUS
 
 _MOST_BINS = 1000
@@ -46,7 +45,7 @@ class DamageSettings(Checked):
     factors
         K factors of the standard; its loads are those of the bins, without dynamics.
     wear_coefficient
-        k of Archard's law [1/Pa]; `MILD` is an example, not checked against the source.
+        k of Archard's law [1/Pa]; None: no wear.
     wear_of_all_load
         Whether films spare nothing: the coefficients of tests count the whole load. False: only the
         load on asperities wears, a hypothesis; its share depends on the law of friction.
@@ -74,7 +73,9 @@ class DamageSettings(Checked):
     gears: Gears | None = None
     blank: HypoidBlank | None = None
     factors: LoadFactors = field(default_factory=lambda: LoadFactors(face=1.65))
-    wear_coefficient: Annotated[float, Number("1/Pa", 0.0, 1e-11, "5e-18 is mild.")] = MILD
+    wear_coefficient: Annotated[
+        float | None, Number("1/Pa", 0.0, 1e-11, "Measured ones lie within 1e-19 to 1e-15.")
+    ] = None
     wear_of_all_load: bool = False
     bearings: tuple[RatedBearing | None, RatedBearing | None] = (None, None)
     cleanliness: str | None = None

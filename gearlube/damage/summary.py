@@ -20,6 +20,7 @@ _MODES = {
 _STANDARD = "ISO 10300-2, -3:2023, method B1; Miner's sum by ISO 6336-6"
 _NO_LIMIT = "no limit given"
 _WEAR_LIMIT = 2.0  # um; beyond, the contact must be solved on the worn flank
+TOO_DEEP = "too deep for the rate of a new flank"
 _RISKS = ((0.1, "low risk"), (0.3, "moderate risk"), (1.01, "high risk"))
 
 
@@ -56,8 +57,10 @@ def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[st
     if settings.wear_of_all_load:
         whose, thin = "all load", "shallow"
     for j, role in enumerate(("pinion", "gear")):
+        if settings.wear_coefficient is None:
+            break
         depth = float(dataset["wear_map"].values[:, j].max())
-        verdict = thin if depth <= _WEAR_LIMIT else "solve the worn flank"
+        verdict = thin if depth <= _WEAR_LIMIT else TOO_DEEP
         by = f"Archard, k = {settings.wear_coefficient:g} 1/Pa, {whose}, the new flank's rate"
         limit = f"{_WEAR_LIMIT:g} µm"
         rows.append((f"wear, {role}", f"{number_text(depth)} µm", limit, "", "", verdict, by))

@@ -42,6 +42,7 @@ _MOST, _MOST_EP, _CLEAN_EP = (
     0.2,
 )  # a_ISO, with EP additives, and e_C from which they count
 _POWERS = (0.054381, 0.19087, 0.071739)  # of kappa below 0.4, below 1, above
+_LARGE = 0.1  # m, pitch diameter from which C_u is lower
 _END_LOADS = 0.83  # lambda_nu, by which C is lower for loads at the ends of rollers
 _Kind = Literal["radial_ball", "radial_roller", "thrust_ball", "thrust_roller"]
 
@@ -136,7 +137,7 @@ class RatedBearing(Checked):
         if self.fatigue_limit is not None or self.static_rating is None:
             return math.nan if self.fatigue_limit is None else self.fatigue_limit
         share, power = self.law.fatigue
-        return self.static_rating / share * min(0.1 / self.pitch_diameter, 1.0) ** power
+        return self.static_rating / share * min(_LARGE / self.pitch_diameter, 1.0) ** power
 
     def race_ratings(self) -> tuple[float, float]:
         """Return Q_ci, Q_ce: loads on an element that a race turns 1e6 times under [N].
@@ -322,6 +323,9 @@ def bearing_life(
         outside.append(f"viscosity ratio kappa from 0.1 on, got {kappa:.3g}: no modified life")
     if math.isnan(bearing.fatigue_load):
         outside.append("fatigue_limit or static_rating is needed, got neither: no modified life")
+    withheld = bool(outside)
+    if bearing.fatigue_limit is None and bearing.pitch_diameter > _LARGE:
+        outside.append("C_u of bearings above 100 mm is a formula from memory; give fatigue_limit")
     if element_loads is None:
         sums = np.array([(check_positive("load", load or 0.0, "N") / bearing.dynamic_rating)])
         sums = sums ** (law.life * law.weibull)
@@ -330,7 +334,7 @@ def bearing_life(
     basic = float(sums.sum() ** (-1.0 / law.weibull))
     loads = bearing.dynamic_rating * (sums.size * sums) ** (1.0 / (law.weibull * law.life))
     a_iso = math.nan
-    if not outside:
+    if not withheld:
         ratio = e_C * bearing.fatigue_load / np.maximum(loads, 1e-9 * bearing.dynamic_rating)
         ratio /= law.thrust if bearing.kind.startswith("thrust") else 1.0
         of_slices = law.modification(used, ratio, _MOST_EP if with_ep else _MOST)

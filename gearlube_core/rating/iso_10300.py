@@ -127,7 +127,7 @@ def _outside(g: BevelMesh, N: float, rim: float) -> tuple[str, ...]:
         (wide <= 13.0, f"face width up to 13 normal modules, got {wide:.1f}"),
         (N <= 0.75, f"speed up to 0.75 of resonance for a checked K_v, got {N:.2f}"),
         (rim >= 1.2, f"thickness of the rim from 1.2 tooth depths on, got {rim:.2f}"),
-        (g.flank == "drive", "drive flank, got the coast flank: its formulas are not checked"),
+        (g.flank == "drive", "the formulas of the coast flank are from memory"),
     )
 
 

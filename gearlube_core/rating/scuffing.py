@@ -13,6 +13,8 @@ from gearlube_core.rating.flank_load import FlankLoad
 from gearlube_core.rating.gears import MM, UM, said
 
 _ZERO = 273.15  # K
+_FRICTION = "the friction of this method is a formula from memory; give friction"
+_TORQUE = "the torque of the load stage, 3.726 S^2 N.m, is from memory; give test_torque"
 _EFFUSIVITY = 13.78  # B_M of steel [N/(mm s^0.5 K)]
 
 
@@ -48,12 +50,13 @@ def _common(load: FlankLoad) -> dict[str, float]:
     }
 
 
-def _outside(load: FlankLoad) -> tuple[str, ...]:
+def _outside(load: FlankLoad, *more: tuple[bool, str]) -> tuple[str, ...]:
     helix, e = math.degrees(load.pair.helix_angle), load.pair.transverse_contact_ratio
     return said(
         (helix <= 30.0, f"helix angle up to 30 deg, got {helix:.1f} deg"),
         (e <= 2.0, f"transverse contact ratio up to 2, got {e:.3f}"),
         (load.v < 80.0, f"pitch line speed below 80 m/s, got {load.v:.1f} m/s"),
+        *more,
     )
 
 
@@ -106,6 +109,7 @@ def flash_rating(
     """
     c, path, u, oil = _common(load), load.path, load.pair.ratio, load.oil
     X_L = (1e3 * oil.viscosity(oil.temperature)) ** -0.05
+    given = friction is not None
     if friction is None:
         X_R = (UM * sum(g.flank_roughness for g in load.gears) / 8.0) ** 0.25
         friction = 0.060 * (load.w / (load.rolling * load.rho_C)) ** 0.2 * X_L * X_R
@@ -124,7 +128,7 @@ def flash_rating(
         friction=friction,
         gamma=float(g[flash.argmax()]),
         factors={**c, "X_L": X_L, "theta_fl": most, "theta_flm": mean},
-        outside=_outside(load),
+        outside=_outside(load, (given, _FRICTION)),
         standard="ISO/TS 6336-20:2017, method B",
     )
 
@@ -206,7 +210,7 @@ def integral_rating(
             **c, "X_R": load.roughness_factor, "K_Bg": load.helical_factor, "X_BE": X_BE,
             "X_eps": X_eps, "X_Q": X_Q, "X_Ca": X_Ca, "theta_flaint": flash,
         },
-        outside=_outside(load),
+        outside=_outside(load, (oil.test_torque is not None, _TORQUE)),
         standard="ISO/TS 6336-21:2017, method B",
     )  # fmt: skip
 

@@ -73,7 +73,7 @@ def _contact_lines(
 def _work_hardening(gears: Gears, radius: float, film: float) -> tuple[Pair, tuple[str, ...]]:
     """Return Z_W of both members: the soft one gains where the other is hard and smooth.
 
-    Its equivalent roughness R_zH, 3 to 16 um, is not checked against the source; `film` is the
+    Its equivalent roughness R_zH, 3 to 16 um, is from memory, and the rating says so; `film` is the
     viscosity at 40 degC times the speed [mm2/s m/s].
     """
     soft = [g.treatment == "through_hardened" for g in gears]
@@ -91,7 +91,8 @@ def _work_hardening(gears: Gears, radius: float, film: float) -> tuple[Pair, tup
     R_zH = R_z * (10.0 / radius) ** 0.33 * (hard.flank_roughness / soft_one.flank_roughness) ** 0.66
     R_zH = min(max(R_zH / (film / 1500.0) ** 0.33, 3.0), 16.0)
     Z_W = (1.2 - (min(max(hardness, 130.0), 470.0) - 130.0) / 1700.0) * (3.0 / R_zH) ** 0.15
-    return ((Z_W, 1.0) if which == 0 else (1.0, Z_W)), ()
+    said_of = ("the equivalent roughness of work hardening, R_zH, is a formula from memory",)
+    return ((Z_W, 1.0) if which == 0 else (1.0, Z_W)), said_of
 
 
 class ToothForm(NamedTuple):
@@ -196,6 +197,13 @@ def _bending_lines(
         *(
             (R_z <= 40.0, f"root roughness R_z up to 40 um, got {R_z:.0f} um")
             for R_z in both(lambda g: UM * g.root_roughness, gears)
+        ),
+        (
+            all(
+                g.slip_layer is not None or not (g.nitrided or g.treatment in _LAYERS)
+                for g in gears
+            ),
+            "the slip layer rho' of this steel is from memory; give slip_layer",
         ),
     )
     found: Factors = {"Y_drelT": Y_drelT, "Y_RrelT": Y_RrelT, "Y_X": Y_X, "Y_M": Y_M}

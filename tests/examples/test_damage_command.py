@@ -31,7 +31,8 @@ def rows(folder, name):
 
 def test_a_table_of_bins_gives_summary_maps_and_report(bins, tmp_path):
     out = tmp_path / "out"
-    done = run("--cycle", bins, *LIMITS, "--pinion-bearings-kn", 88, 110, "--out", out)
+    more = "--pinion-bearings-kn", 88, 110, "--wear-coefficient", 5e-18
+    done = run("--cycle", bins, *LIMITS, *more, "--out", out)
     assert done.exit_code == 0, done.output
     found = {row["failure mode"]: row for row in rows(out, "summary.csv")}
     assert float(found["breakage, pinion"]["safety"]) > 1.0
@@ -51,6 +52,7 @@ def test_a_cycle_with_a_severe_block(bins, tmp_path):
     assert done.exit_code == 0, done.output
     found = rows(out, "damage.csv")
     assert [float(row["torque_n_m"]) for row in found][-2:] == [350.0, -60.0]
+    assert not any("wear" in name for name in found[0])  # its coefficient is not given
     # 1000 km at 46 km/h
     assert sum(float(row["hours_h"]) for row in found[:-2]) == pytest.approx(1000 / 46, rel=0.01)
 

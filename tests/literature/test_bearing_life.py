@@ -84,6 +84,11 @@ def test_what_is_missing_or_outside_is_said_and_the_number_withheld():
     bare = bearing_life(replace(EXAMPLE, fatigue_limit=None), load=12e3, **RATED)
     assert math.isnan(bare.a_iso)
     assert "got neither" in bare.outside[0]
+    # the modified life stands, though C_u follows from C_0 by a formula from memory
+    large = replace(EXAMPLE, fatigue_limit=None, static_rating=70e3, pitch_diameter=0.15)
+    found = bearing_life(large, load=12e3, **RATED)
+    assert "above 100 mm is a formula from memory" in found.outside[0]
+    assert found.a_iso > 0.0
 
 
 @pytest.mark.parametrize(

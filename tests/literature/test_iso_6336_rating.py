@@ -177,6 +177,11 @@ def test_a_hard_pinion_hardens_a_soft_wheel_and_missing_hardness_is_said():
     assert rated.factors["Z_W"] == (1.0, pytest.approx(1.135, abs=5e-4))  # HB 240, smooth
     rough = rated_fzg((replace(CASE, flank_roughness=10e-6), SOFT))
     assert rough.factors["Z_W"][1] < 1.05  # a rough hard flank wears the soft one
+    from_memory = " ".join(rated.outside)
+    assert "R_zH, is a formula from memory" in from_memory
+    assert "rho' of this steel is from memory" in from_memory
+    given = rated_fzg((gears[0], replace(SOFT, slip_layer=1.4e-6)))
+    assert "rho'" not in " ".join(given.outside)
     none = replace(SOFT, brinell=None)
     blind = rated_fzg((gears[0], none))
     assert blind.factors["Z_W"] == (1.0, 1.0)

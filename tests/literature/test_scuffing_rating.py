@@ -119,6 +119,11 @@ def test_integral_temperature_of_the_third_stage_is_the_printed_one():
         "K_Bg": 1.2735, "X_R": 0.7124, "X_BE": 0.2295, "X_eps": 0.2628, "X_Ca": 1.0949, "X_Q": 1.0,
         "theta_flaint": 16.25,
     }  # fmt: skip
+    torque = replace(LOAD, oil=replace(OIL, test_torque=714.2))
+    relief = {"tip_relief": 2e-6, "effective_relief": 44.74e-6}
+    assert gl.integral_rating(torque, **relief).outside == ()
+    without = replace(LOAD, oil=replace(OIL, test_torque=None))
+    assert "3.726 S^2 N.m, is from memory" in gl.integral_rating(without, **relief).outside[0]
     for name, value in printed.items():
         # the printed flash temperature is 1 % below its own factors
         assert found.factors[name] == pytest.approx(value, rel=0.01 if "fl" in name else 1e-3)
@@ -158,7 +163,8 @@ def test_the_flash_formula_agrees_with_the_integral_over_the_contact():
 
 
 def test_gears_outside_of_the_range_of_the_standard_are_named():
-    assert gl.flash_rating(LOAD).outside == ()
+    assert gl.flash_rating(LOAD, friction=0.04).outside == ()
+    assert "from memory; give friction" in gl.flash_rating(LOAD).outside[0]
     said = gl.flash_rating(replace(LOAD, pinion_speed=600.0)).outside
     assert "pitch line speed below 80 m/s" in said[0]
     with pytest.raises(ParameterError, match="line_load must be above 0 N/m"):

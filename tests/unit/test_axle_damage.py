@@ -14,6 +14,7 @@ from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.spectrum import DutyBins
 
+K_WEAR = 5e-18  # 1/Pa
 GEARS, BLANK = rated_pair("mohammadpour_2015", "", "case_hardened", 1500.0, 430.0)
 
 
@@ -40,7 +41,7 @@ def run(car):
         return run_damage(
             DamageSettings(
                 car=car, bins=bins, gears=GEARS, blank=BLANK, bearings=(bearing, bearing),
-                cleanliness="grease, clean", **given,
+                cleanliness="grease, clean", wear_coefficient=K_WEAR, **given,
             )
         )  # fmt: skip
 
@@ -101,8 +102,25 @@ def test_without_material_there_is_no_strength_but_all_else(car):
     found = run_damage(DamageSettings(car=car, bins=MILD))
     modes = [row[0] for row in json.loads(found.attrs["summary"])]
     assert not any(one.startswith(("pitting", "local", "breakage", "bearing")) for one in modes)
-    assert any("wear" in mode for mode in modes)
+    assert any("scuffing" in mode for mode in modes)
     assert any("1500 and 430" in one.detail for one in findings(found))
+
+
+def test_without_a_coefficient_no_wear_is_shown(car):
+    found = run_damage(DamageSettings(car=car, bins=MILD))
+    assert not any("wear" in str(name) for name in found.data_vars)
+    assert not any("wear" in row[0] for row in json.loads(found.attrs["summary"]))
+    told = [one for one in findings(found) if "No wear" in one.headline]
+    assert len(told) == 1
+    assert "--wear-coefficient" in told[0].detail
+
+
+def test_wear_too_deep_for_a_new_flank_is_a_warning(run):
+    found = run(HARD._replace(time=1e4 * HARD.time))
+    depth = float(found["wear_map"].max())
+    assert depth > 2.0  # um
+    warned = [one.headline for one in findings(found) if one.level == "warning"]
+    assert any("wear, pinion: too deep for the rate of a new flank" in one for one in warned)
 
 
 def test_a_life_that_fails_is_a_warning(run):
@@ -146,7 +164,8 @@ def test_modified_life_without_its_data_is_withheld(car):
 
 
 def test_files_and_report(run, tmp_path, car):
-    found = run_damage(DamageSettings(car=car, bins=MILD), folder=tmp_path)
+    wears = DamageSettings(car=car, bins=MILD, wear_coefficient=K_WEAR)
+    found = run_damage(wears, folder=tmp_path)
     names = {path.name for path in tmp_path.iterdir()}
     assert names == {"damage.nc", "damage.csv", "summary.csv", "figures"}
     assert (tmp_path / "damage.csv").read_text().startswith("torque_n_m,speed_rpm,temperature_degc")
