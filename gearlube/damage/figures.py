@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.drawn_tooth import DrawnTooth
+from gearlube.plotting.drawn_tooth import DrawnTooth, ToothWords
 from gearlube.plotting.style import house_style, new_figure
 
 _MAPS = {
@@ -36,7 +36,8 @@ def damage_figures(dataset: xr.Dataset) -> dict[str, Any]:
 def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
     """Return the maps of one side on the drawn gear tooth; wear and damage of both members."""
     x, y = dataset["along"].values, dataset["up"].values
-    tooth = DrawnTooth(float(x[0] + x[-1]), float(y[0] + y[-1]))
+    words_of = ToothWords(*json.loads(dataset.attrs["drawn"]))
+    tooth = DrawnTooth(float(x[0] + x[-1]), float(y[0] + y[-1]), words_of)
     drawn: list[tuple[str, str, str, Any]] = []
     for name, (words, unit, colours) in _MAPS.items():
         if name not in dataset:
@@ -60,9 +61,7 @@ def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
         for ax in axes[:-1].ravel():
             ax.set_xlabel("")
         figure.suptitle(
-            f"{side.capitalize()} side over the whole life, on the gear tooth; the pinion where it "
-            "touches the gear",
-            fontsize=10.5,
+            f"{side.capitalize()} side over the whole life. {words_of.where}", fontsize=10.5
         )
     return figure
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import Solid
-from gearlube_core.dynamics.hypoid_axle.flank_states import FlankStates
+from gearlube_core.friction.flank_states import FlankStates
 from gearlube_core.rating.contact_temperature import contact_temperature
 from gearlube_core.rating.wear import wear_per_cycle
 

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.damage.summary import SUMMARY_HEAD, TOO_DEEP
+from gearlube.plotting.drawn_tooth import ToothWords
 from gearlube.report.numbers import number_text
 from gearlube.report.parts import (
     GOOD,
@@ -35,29 +36,26 @@ _LIMITS = (
     "Calculated by the formulas of the standards as implemented here, not certified. Check a "
     "design against the standard itself.",
     "Each bin is steady running: no vibration, no shock. Give an application factor for them.",
-    "Pressure, temperature and wear are those of the Hertz ellipse, cut off at the edges of the "
-    "tooth. Where an edge itself presses, the true pressure is higher.",
     "The local pitting damage takes the solved pressure in the strength line of the standard. That "
     "line is made for the stress of the standard: the damage ranks places and bins, no more.",
     "The wear depth is the rate of the new flank times the cycles; its coefficient scatters by 40 "
     "to 60 % in one test, and the share of the load on asperities differs 30 times between laws of "
-    "friction. Flanks of hypoid gears slide everywhere: no place is without wear.",
-    "Without film.bulk_resistance_k_w in the axle file the flanks are as warm as the oil.",
+    "friction.",
 )
 _OF_BINS = "The bins that do most, at most ten, with torque, speed and oil temperature."
 _CAPTION = (
-    "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact. "
-    "The pinion's values are drawn where the pinion touches the gear."
+    "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact."
 )
 
 
 def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = ()) -> Report:
     """Return the report of `run_damage`, with the pictures in the folder `figures`."""
     hours = number_text(float(dataset["hours"].sum()))
+    drawn = ToothWords(*json.loads(dataset.attrs["drawn"]))
     pictures = {path.stem: path.read_bytes() for path in figures.glob("*.png")}
     return Report(
         study="damage",
-        title=f"Damage of {dataset.attrs['axle']}",
+        title=f"Damage of {dataset.attrs['name']}",
         subtitle=f"{dataset.attrs['duty']}: {dataset.sizes['bin']} bins, {hours} h",
         findings=findings(dataset),
         numbers=_numbers(dataset),
@@ -65,7 +63,7 @@ def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = 
             Figure(
                 name=name,
                 title=title,
-                caption=_OF_BINS if name == "bins" else _CAPTION,
+                caption=_OF_BINS if name == "bins" else f"{_CAPTION} {drawn.where}",
                 picture=pictures[name],
             )
             for name, title in _TITLES.items()
@@ -80,7 +78,7 @@ def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = 
             )
         ],
         inputs=inputs,
-        limits=_LIMITS,
+        limits=(*_LIMITS, *dataset.attrs["limits"].splitlines()),
         files=("damage.nc", "damage.csv", "summary.csv"),
     )
 
@@ -119,7 +117,7 @@ def _strength(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             GOOD if each[mode] >= 1.0 else WARNING,
             f"The damage is 1 at {number_text(each[mode])} times all torques: {mode}.",
-            "By ISO 10300-2, -3:2023, method B1, with Miner's sum.",
+            f"By {dataset.attrs['standard']}, with Miner's sum.",
         ),
         Finding(
             NOTE,

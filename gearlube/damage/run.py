@@ -14,17 +14,18 @@ import xarray as xr
 from gearlube.damage.bins import bin_words
 from gearlube.damage.figures import damage_figures
 from gearlube.damage.flank import HIGH, WIDE, flank_damage, tooth_maps
-from gearlube.damage.settings import DamageSettings, Rate
+from gearlube.damage.settings import DamageSettings
 from gearlube.damage.summary import SUMMARY_HEAD, summary_rows
+from gearlube.damage.teeth import Teeth
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.cycle import variables_of
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.flank_states import FlankStates, flank_states
+from gearlube_core.friction.flank_states import BearingStates
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.rating.bearing_life import bearing_life
 from gearlube_core.rating.life import miner_sum, torque_factor
-from gearlube_core.rating.spectrum import DutyBins, SpectrumDamage, spectrum_damage
+from gearlube_core.rating.spectrum import DutyBins, Rate, SpectrumDamage, spectrum_damage
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
@@ -91,15 +92,16 @@ def run_damage(
     >>> round(float(gl.run_damage(settings)["pressure"][0]), 2)  # GPa
     1.01
     """
-    bins, rate, ratio = settings.bins, settings.rate, settings.car.axle.mesh.ratio
+    teeth, bins, rate = settings.teeth, settings.bins, settings.rate
+    ratio = teeth.ratio
     count = bins.torque.size
     cycles = np.stack([bins.revolutions, bins.revolutions / ratio], axis=1)
     solved = []
     for i in range(count):
         progress(0.9 * i / count, f"bin {i + 1} of {count}")
-        solved.append(_solved(settings, rate, i, cycles[i]))
+        solved.append(_solved(settings, teeth, rate, i, cycles[i]))
     values = {name: np.array([one[name] for one in solved]) for name in solved[0]}
-    shown = dict(_OF_BINS)
+    shown = {name: words for name, words in _OF_BINS.items() if name in values}
     if settings.wear_coefficient is None:
         del shown["wear"]
     outside = ""
@@ -137,10 +139,9 @@ def run_damage(
     }
     if settings.wear_coefficient is not None:
         one["wear_map"] = _BOTH, summed("wear_map"), "um", "wear depth"
-    size = settings.car.axle.mesh.tooth_size or (1.0, 1.0)
     places = {
         name: (name, 1e3 * length * (np.arange(n) + 0.5) / n, {"units": "mm"})
-        for name, length, n in zip(("along", "up"), size, (WIDE, HIGH), strict=True)
+        for name, length, n in zip(("along", "up"), teeth.drawn_size, (WIDE, HIGH), strict=True)
     }
     named = {
         "side": np.array(["drive", "coast"]),
@@ -151,13 +152,16 @@ def run_damage(
         variables_of(one),
         coords={**places, **named},
         attrs={
-            "axle": settings.car.name,
-            "oil": settings.car.axle.oil.name,
-            "film": settings.car.axle.film,
+            "name": teeth.name,
+            "oil": teeth.oil.name,
+            "film": teeth.film,
+            "standard": teeth.standard,
+            "limits": "\n".join(teeth.limits),
+            "drawn": json.dumps(teeth.drawn),
             "duty": settings.duty,
             "bins": json.dumps([bin_words(bins, i) for i in range(count)]),
             "outside": outside,
-            "table_torque_n_m": float(np.abs(settings.car.axle.mesh.torque).max()),
+            "table_torque_n_m": teeth.solved_torque,
             "torque_factors": json.dumps(factors),
         },
     )
@@ -169,15 +173,15 @@ def run_damage(
 
 
 def _solved(
-    settings: DamageSettings, rate: Rate | None, place: int, cycles: Array
+    settings: DamageSettings, teeth: Teeth, rate: Rate | None, place: int, cycles: Array
 ) -> dict[str, Any]:
     """Return what a bin has, by the names of `_OF_BINS`, and its maps."""
-    axle, at = settings.car.axle, [float(one[place]) for one in settings.bins[:3]]
-    states = flank_states(axle, torque=at[0], speed=at[1], temperature=at[2])
+    at = [float(one[place]) for one in settings.bins[:3]]
+    states = teeth.states(*at)
     found = flank_damage(
-        states, axle.solid, settings.wear_coefficient or 0.0, all_load=settings.wear_of_all_load
+        states, teeth.solid, settings.wear_coefficient or 0.0, all_load=settings.wear_of_all_load
     )
-    maps = tooth_maps(states, found, axle.mesh.tooth_size or (1.0, 1.0))
+    maps = tooth_maps(states, found, teeth.drawn_size)
     share = states.load / states.load.sum()
     wear = [
         n * 1e6 * maps[f"{role}_wear"] for n, role in zip(cycles, ("pinion", "gear"), strict=True)
@@ -191,7 +195,6 @@ def _solved(
             for line, n in zip(rating.contact_lines, cycles, strict=True)
         ]
     hottest = int(found.flash.argmax())
-    basic, modified = _bearing_damage(settings, states, at[1], at[2], cycles)
     film = maps["film"]
     return {
         "on_coast": states.carried < 0.0,
@@ -206,10 +209,7 @@ def _solved(
         "wear": [one.max() for one in wear],
         "contact_stress": [1e-6 * one for one in stress],
         "local_damage": [one.max() for one in local],
-        "radial_load": states.bearings.radial,
-        "axial_load": states.bearings.axial,
-        "bearing_damage": basic,
-        "bearing_damage_modified": modified,
+        **_bearings(settings, teeth, states.bearings, place, cycles),
         "pressure_map": 1e-9 * maps["pressure"],
         "thin_map": np.divide(1.0, film, out=np.zeros_like(film), where=film > 0.0),
         "flash_map": maps["flash"],
@@ -219,13 +219,19 @@ def _solved(
     }
 
 
-def _bearing_damage(
-    settings: DamageSettings, states: FlankStates, speed: float, temperature: float, cycles: Array
-) -> tuple[Array, Array]:
-    """Return the shares of basic and modified life of the four bearings; no number: not known."""
-    ratio, oil = settings.car.axle.mesh.ratio, settings.car.axle.oil
+def _bearings(
+    settings: DamageSettings,
+    teeth: Teeth,
+    bearings: BearingStates | None,
+    place: int,
+    cycles: Array,
+) -> dict[str, Any]:
+    """Return loads and shares of basic and modified life of the bearings; no number: not known."""
+    if bearings is None:
+        return {}
+    speed, temperature = float(settings.bins.speed[place]), float(settings.bins.temperature[place])
     used = np.full((2, 4), np.nan)
-    for k, loads in enumerate(states.bearings.rollers):
+    for k, loads in enumerate(bearings.rollers):
         rated = settings.bearings[k // 2]
         if rated is None:
             continue
@@ -233,18 +239,23 @@ def _bearing_damage(
         if not rollers.any():
             used[:, k] = 0.0
             continue
-        film, rough = float(states.bearings.film[k]), settings.raceway_roughness or 0.0
+        film, rough = float(bearings.film[k]), settings.raceway_roughness or 0.0
         solved = film > 0.0 and rough > 0.0
         life = bearing_life(
-            rated, speed=speed / (ratio if k > 1 else 1.0), element_loads=rollers,
+            rated, speed=speed / (teeth.ratio if k > 1 else 1.0), element_loads=rollers,
             cleanliness=settings.cleanliness or (0.0, 0.0),
             film_ratio=film / rough if solved else None,
-            viscosity=None if solved else float(oil.state(temperature).nu),
+            viscosity=None if solved else float(teeth.oil.state(temperature).nu),
         )  # fmt: skip
         used[:, k] = cycles[k // 2] / life.basic, cycles[k // 2] / life.modified
     if settings.cleanliness is None:
         used[1] = math.nan
-    return used[0], used[1]
+    return {
+        "radial_load": bearings.radial,
+        "axial_load": bearings.axial,
+        "bearing_damage": used[0],
+        "bearing_damage_modified": used[1],
+    }
 
 
 def _torque_factors(

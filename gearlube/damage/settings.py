@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
+from gearlube.damage.teeth import Teeth, axle_teeth
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.number import Checked, Number
 from gearlube_core.rating.bearing_life import RatedBearing
-from gearlube_core.rating.bevel_mesh import BevelMesh
-from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear, StrengthRating
-from gearlube_core.rating.iso_10300 import bevel_rating
-from gearlube_core.rating.spectrum import DutyBins
-from gearlube_core.units import ZERO_CELSIUS
+from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear
+from gearlube_core.rating.spectrum import DutyBins, Rate
 
 _MOST_BINS = 1000
-Rate = Callable[[float, float, float], StrengthRating]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,29 +86,22 @@ class DamageSettings(Checked):
         Checked.__post_init__(self)
         cure = "Take wider bins."
         check_within("the number of bins", self.bins.torque.size, 1, _MOST_BINS, "", cure)
-        limits, oil = torque_limits(self.car.axle), self.car.axle.oil
         for torque in self.bins.torque:
-            words = limits.pinion_low, limits.pinion_high, "N.m", limits.cure
+            words = *self.teeth.torques, "N.m", self.teeth.cure
             check_within("torque of a bin", torque, *words)
         for temperature in self.bins.temperature:
-            oil.check_temperature(float(temperature), "temperature of a bin")
+            self.teeth.oil.check_temperature(float(temperature), "temperature of a bin")
+
+    @cached_property
+    def teeth(self) -> Teeth:
+        """Those that mesh."""
+        return axle_teeth(self.car, self.blank)
 
     @property
     def rate(self) -> Rate | None:
         """The standard's rating over torque [N.m], speed [rad/s], temperature [K]; None: none."""
-        if self.gears is None or self.blank is None:
-            return None
-        meshes = {side: BevelMesh.of_blank(self.blank, flank=side) for side in ("drive", "coast")}
-        nu = float(self.car.axle.oil.state(ZERO_CELSIUS + 40.0).nu)
-        gears = self.gears
-
-        def rated(torque: float, speed: float, temperature: float) -> StrengthRating:
-            return bevel_rating(
-                meshes["coast" if torque < 0.0 else "drive"], gears, self.factors,
-                pinion_torque=abs(torque), pinion_speed=speed, cycles=(1.0, 1.0), oil_viscosity=nu,
-            )  # fmt: skip
-
-        return rated
+        rate = self.teeth.rate
+        return None if rate is None or self.gears is None else rate(self.gears, self.factors)
 
 
 def rated_pair(

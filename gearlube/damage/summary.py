@@ -17,7 +17,6 @@ _MODES = {
     "pitting, drive": "contact_damage", "pitting, coast": "contact_damage",
     "breakage": "bending_damage",
 }  # fmt: skip
-_STANDARD = "ISO 10300-2, -3:2023, method B1; Miner's sum by ISO 6336-6"
 _NO_LIMIT = "no limit given"
 _WEAR_LIMIT = 2.0  # um; beyond, the contact must be solved on the worn flank
 TOO_DEEP = "too deep for the rate of a new flank"
@@ -28,19 +27,20 @@ def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[st
     """Return the rows of the summary, texts in the order of `SUMMARY_HEAD`."""
     rows = []
     drive = dataset["torque"].values > 0.0
+    by = f"{dataset.attrs['standard']}; Miner's sum by ISO 6336-6"
     for mode, pair in json.loads(dataset.attrs["torque_factors"]).items():
         side = {"pitting, drive": drive, "pitting, coast": ~drive}.get(mode, drive | ~drive)
         if side.any():
             sums = dataset[_MODES[mode]].values[side].sum(axis=0)
             for role, total, factor in zip(("pinion", "gear"), sums, pair, strict=True):
-                rows.append(_row(f"{mode}, {role}", total, "1", factor, "1", "safe", _STANDARD))
+                rows.append(_row(f"{mode}, {role}", total, "1", factor, "1", "safe", by))
     for i, side_name in enumerate(("drive", "coast")):
         for j, role in enumerate(("pinion", "gear")):
             local = dataset["local_damage_map"].values[i, j].max()
             if local > 0.0:
                 name = f"local pitting damage, {side_name}, {role}"
-                by = "solved pressure in the standard's strength line; no safety"
-                rows.append((name, number_text(local), "", "", "", "ranks places alone", by))
+                how = "solved pressure in the standard's strength line; no safety"
+                rows.append((name, number_text(local), "", "", "", "ranks places alone", how))
     hot = float(dataset["contact_temperature"].max())
     limit, verdict, scuffing = "", _NO_LIMIT, settings.scuffing_temperature
     if scuffing is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -18,6 +18,24 @@ _LINE = "#404040"
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 73)
 
 
+class ToothWords(NamedTuple):
+    """Names of the axes and edges of a drawn tooth, and a sentence on where places are drawn."""
+
+    along: str
+    up: str
+    left: str
+    right: str
+    top: str
+    bottom: str
+    where: str
+
+
+GEAR_TOOTH = ToothWords(
+    "along the face", "height", "toe", "heel", "tip", "root",
+    "Drawn on the gear tooth, values of the pinion where it touches the gear.",
+)  # fmt: skip
+
+
 @dataclass(frozen=True, slots=True)
 class DrawnTooth:
     """The gear flank turned into the axial section; depth is uniform, so it is a rectangle.
@@ -26,10 +44,13 @@ class DrawnTooth:
     ----------
     width, height : float
         Face width, and height from root line to tip [mm].
+    words : ToothWords
+        Names of axes and edges.
     """
 
     width: float
     height: float
+    words: ToothWords = GEAR_TOOTH
 
     @classmethod
     def of_dataset(cls, dataset: xr.Dataset) -> DrawnTooth:
@@ -51,15 +72,15 @@ class DrawnTooth:
         x, y = [0.0, self.width, self.width, 0.0, 0.0], [0.0, 0.0, self.height, self.height, 0.0]
         ax.plot(x, y, color=_LINE, lw=1.6, zorder=6, clip_on=False)
         ax.set(xlim=(0.0, self.width), ylim=(0.0, self.height), aspect="equal")
-        ax.set(xlabel="along the face [mm]", ylabel="height [mm]")
+        ax.set(xlabel=f"{self.words.along} [mm]", ylabel=f"{self.words.up} [mm]")
         ax.grid(visible=False)
         for spine in ax.spines.values():
             spine.set_visible(False)
         look = {"transform": ax.transAxes, "fontsize": 9, "color": _LINE, "fontweight": "bold"}
-        ax.text(0.0, 1.02, "toe", ha="left", va="bottom", **look)
-        ax.text(1.0, 1.02, "heel", ha="right", va="bottom", **look)
-        ax.text(1.01, 0.97, "tip", ha="left", va="top", **look)
-        ax.text(1.01, 0.03, "root", ha="left", va="bottom", **look)
+        ax.text(0.0, 1.02, self.words.left, ha="left", va="bottom", **look)
+        ax.text(1.0, 1.02, self.words.right, ha="right", va="bottom", **look)
+        ax.text(1.01, 0.97, self.words.top, ha="left", va="top", **look)
+        ax.text(1.01, 0.03, self.words.bottom, ha="left", va="bottom", **look)
         if title:
             ax.set_title(title, fontsize=9.5)
 

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -45,6 +44,7 @@ from gearlube_core.ehl.gears.hypoid_film import pair_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.friction.flank_laws import MixedFlankFriction
+from gearlube_core.friction.flank_states import BearingStates, FlankStates
 from gearlube_core.friction.mixed_friction import asperity_contact
 from gearlube_core.kernels.flat_tuples import flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
@@ -55,58 +55,6 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 _COLUMNS = 8
 _ROLLERS = 4  # place of the rollers behind forces and film of a bearing
 _LEAST_LOAD = 1e-6  # of the largest, above what rounding leaves
-
-
-class BearingStates(NamedTuple):
-    """The bearings of an axle: first and second of the pinion, then of the gear; shape (4, ...)."""
-
-    radial: Array  # load [N]
-    axial: Array  # [N]
-    rollers: Array  # load of each roller, (4, ROLLERS_MAX), 0 beyond the last [N]
-    film: Array  # thinnest of the raceways by solved films; 0 without them [m]
-
-
-class FlankStates(NamedTuple):
-    """A pair of flanks at N phases of its engagement; arrays of shape (N,), SI units."""
-
-    phase: Array  # mesh periods from the middle of the pair's window, rising
-    load: Array  # normal [N], above 0
-    semi_minor: Array  # a and b of the Hertz ellipse, which knows no edge of the tooth [m]
-    semi_major: Array
-    film_ratio: Array  # central film over composite roughness [-]
-    friction: Array  # force [N]
-    asperity_share: Array  # of the load; 1 where the law of friction does not know it [-]
-    outside: Array  # 0: film and friction are of the model of solved films, 1: of formulas
-    sliding: Array  # of the pinion's flank over the gear's, with the part along the line [m/s]
-    pinion_speed: Array  # of the flanks across the line of contact, relative to it [m/s]
-    gear_speed: Array
-    table_pressure: Array  # highest pressure of the mesh table, with that of edges [Pa]
-    place: Array  # (N, 2): on the drawn gear tooth, along from the toe, up from the root [m]
-    major: Array  # (N, 2): how a metre along the major axis is drawn there [-]
-    share_of_time: float  # that a phase stands for, of a mesh period [-]
-    bulk: float  # temperature of the flanks' bulk [K]
-    carried: float  # torque of the teeth at the pinion [N.m]
-    bearings: BearingStates
-
-    @property
-    def pressure(self) -> Array:
-        """Largest Hertz pressure [Pa]."""
-        return 1.5 * self.load / (math.pi * self.semi_minor * self.semi_major)
-
-    @property
-    def line_load(self) -> Array:
-        """Load over a unit of length of the contact line, in the middle of the ellipse [N/m]."""
-        return 0.75 * self.load / self.semi_major
-
-    @property
-    def heat(self) -> Array:
-        """Greatest friction power over area [W/m2]."""
-        return self.friction * self.sliding * self.pressure / self.load
-
-    @property
-    def friction_power(self) -> float:
-        """Mean of all pairs over a mesh period [W]."""
-        return float((self.friction * self.sliding).sum() * self.share_of_time)
 
 
 @cache
@@ -281,6 +229,8 @@ def flank_states(
     return FlankStates(
         phase=phase,
         load=load,
+        pressure=1.5 * load / (math.pi * a * b),
+        line_load=0.75 * load / b,
         semi_minor=a,
         semi_major=b,
         film_ratio=film_ratio,

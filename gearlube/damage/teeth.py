@@ -1,0 +1,131 @@
+"""What a damage run takes of the teeth that mesh, and the teeth of an axle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from drivetrain.axle_file.axle_file import CarAxle
+from gearlube.plotting.drawn_tooth import GEAR_TOOTH, ToothWords
+from gearlube_core.contact.solid import Solid
+from gearlube_core.dynamics.hypoid_axle.flank_states import flank_states
+from gearlube_core.dynamics.hypoid_axle.model import torque_limits
+from gearlube_core.friction.flank_states import FlankStates
+from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
+from gearlube_core.oil.lubricant import Lubricant
+from gearlube_core.rating.bevel_mesh import BevelMesh
+from gearlube_core.rating.gears import Gears, LoadFactors, StrengthRating
+from gearlube_core.rating.iso_10300 import bevel_rating
+from gearlube_core.rating.spectrum import Rate
+from gearlube_core.units import ZERO_CELSIUS
+
+_AXLE = (
+    "Pressure, temperature and wear are those of the Hertz ellipse, cut off at the edges of the "
+    "tooth. Where an edge itself presses, the true pressure is higher.",
+    "Flanks of hypoid gears slide everywhere: no place is without wear.",
+    "Without film.bulk_resistance_k_w in the axle file the flanks are as warm as the oil.",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Teeth:
+    """Teeth that mesh, of an axle or of a pair: all that a damage run takes of them.
+
+    Parameters
+    ----------
+    name
+        Of the axle or the pair.
+    ratio
+        Teeth of the gear over those of the pinion [-].
+    oil, solid
+        Oil, and material of both flanks.
+    film
+        Where the films come from: "formula" or "solved".
+    torques, cure
+        Least and largest torque of the pinion that the model takes [N.m], and what to do beyond.
+    solved_torque
+        Up to which the contact is solved [N.m].
+    states
+        Return the flanks at torque [N.m], speed of the pinion [rad/s], oil temperature [K].
+    rate
+        Return the standard's rating of a bin for gears and load factors; None: there is none.
+    standard
+        Of the rating, with edition and method.
+    drawn, drawn_size
+        Words of the maps; size of the drawn tooth along and up [m].
+    limits
+        Sentences on what the solved numbers leave out.
+    """
+
+    name: str
+    ratio: float
+    oil: Lubricant
+    solid: Solid
+    film: str
+    torques: tuple[float, float]
+    cure: str
+    solved_torque: float
+    states: Callable[[float, float, float], FlankStates]
+    rate: Callable[[Gears, LoadFactors], Rate] | None
+    standard: str
+    drawn: ToothWords
+    drawn_size: tuple[float, float]
+    limits: tuple[str, ...]
+
+
+def axle_teeth(car: CarAxle, blank: HypoidBlank | None) -> Teeth:
+    """Return the teeth of an axle.
+
+    Parameters
+    ----------
+    car
+        Axle of an axle file; its mesh table has the places of contact on the tooth.
+    blank
+        Of the gears, for ISO 10300; None: no rating by the standard.
+
+    Examples
+    --------
+    >>> import gearlube as gl
+    >>> teeth = axle_teeth(gl.read_axle("mohammadpour_2015"), None)
+    >>> round(float(teeth.states(100.0, 200.0, 353.15).pressure.max() / 1e9), 2)  # GPa
+    1.01
+    """
+    axle, limits = car.axle, torque_limits(car.axle)
+
+    def states(torque: float, speed: float, temperature: float) -> FlankStates:
+        return flank_states(axle, torque=torque, speed=speed, temperature=temperature)
+
+    return Teeth(
+        name=car.name,
+        ratio=float(axle.mesh.ratio),
+        oil=axle.oil,
+        solid=axle.solid,
+        film=axle.film,
+        torques=(limits.pinion_low, limits.pinion_high),
+        cure=limits.cure,
+        solved_torque=float(np.abs(axle.mesh.torque).max()),
+        states=states,
+        rate=None if blank is None else _bevel_rate(blank, axle.oil),
+        standard="ISO 10300-2, -3:2023, method B1",
+        drawn=GEAR_TOOTH,
+        drawn_size=axle.mesh.tooth_size or (1.0, 1.0),
+        limits=_AXLE,
+    )
+
+
+def _bevel_rate(blank: HypoidBlank, oil: Lubricant) -> Callable[[Gears, LoadFactors], Rate]:
+    meshes = {side: BevelMesh.of_blank(blank, flank=side) for side in ("drive", "coast")}
+    nu = float(oil.state(ZERO_CELSIUS + 40.0).nu)
+
+    def of_gears(gears: Gears, factors: LoadFactors) -> Rate:
+        def rated(torque: float, speed: float, temperature: float) -> StrengthRating:
+            return bevel_rating(
+                meshes["coast" if torque < 0.0 else "drive"], gears, factors,
+                pinion_torque=abs(torque), pinion_speed=speed, cycles=(1.0, 1.0), oil_viscosity=nu,
+            )  # fmt: skip
+
+        return rated
+
+    return of_gears
