@@ -11,7 +11,7 @@ from gearlube_core.checks import check_within
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.blank.pitch_cones import PitchCones
 from gearlube_core.number import Checked, Number, Positive
-from gearlube_core.rating.gears import MM, Pair, both
+from gearlube_core.rating.pairs import MM, Pair, both
 
 _METRES = "Give metres, not millimetres."
 _Flank = Literal["drive", "coast"]

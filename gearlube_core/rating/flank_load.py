@@ -16,7 +16,8 @@ from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.number import Checked, Number, Positive
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.rating.gears import MM, Gears, Pair, StrengthRating
+from gearlube_core.rating.gears import Gears, StrengthRating
+from gearlube_core.rating.pairs import MM, Pair
 from gearlube_core.rating.strength import elasticity_factor
 
 _BUTTRESS = 1.3  # load at the ends of helical contact lines over that in the middle

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
@@ -11,17 +10,11 @@ from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import Checked, Number
 from gearlube_core.rating.life import BENDING, PITTING, SOME_PITTING, TREATMENTS, Line, strength
+from gearlube_core.rating.pairs import UM, Factors, Pair, both
 
-Pair = tuple[float, float]  # of pinion and gear
-Factors = dict[str, float | Pair]
-MM, MPA, UM = 1e3, 1e-6, 1e6  # the standards' units in 1 m, 1 Pa, 1 m
 _DEVIATION = Number("m", 0.0, 2e-3, "13 um is 1.3e-5 m.")
+_ARITHMETIC = Number("m", 1e-8, 3e-5, "0.6 um is 6e-7 m.")
 _FACTOR = Number("1", 0.5, 20.0, "None: by the formulas of the standard.")
-
-
-def both(function: Callable[..., float], *pairs: tuple[object, object]) -> Pair:
-    """Return a function of both members."""
-    return function(*(one[0] for one in pairs)), function(*(one[1] for one in pairs))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,29 +27,25 @@ class RatedGear(Checked):
         One of `TREATMENTS`. Roughness and notch of nitrided steel are not checked against the
         source.
     contact_limit, bending_limit
-        sigma_H lim and nominal sigma_F lim [Pa]: [iso_6336_5] or tests; 1500 and 430 MPa are an
-        example of case-hardened steel of medium quality.
+        sigma_H lim and nominal sigma_F lim: [iso_6336_5] or tests; 1500 and 430 MPa are an example
+        of case-hardened steel of medium quality.
     brinell
-        Of a through-hardened gear that a hard one work-hardens [-].
+        Of a through-hardened gear that a hard one work-hardens.
     pitch_deviation, profile_deviation
-        f_pb, of bevel gears f_pt, and profile form f_f alpha [m].
+        f_pb, of bevel gears f_pt, and profile form f_f alpha.
     flank_roughness, root_roughness, arithmetic_roughness
-        Mean peak to valley R_z [m], and R_a of the flank; None: a sixth of its R_z.
-    bore
-        Inner diameter of the body, of cylindrical gears [m].
+        Mean peak to valley R_z, and R_a of the flank; None: a sixth of its R_z.
+    bore, protuberance
+        Of cylindrical gears: inner diameter of the body; s_pr of the tool less the grinding stock.
     rim_ratio
-        Thickness of the rim over tooth depth [-]; infinite: solid.
-    protuberance
-        s_pr of the tool less the grinding stock, of cylindrical gears [m].
+        Thickness of the rim over tooth depth; infinite: solid.
     mean_stress
-        Y_M [-]: 1 for load on one flank, about 0.7 where both flanks bear load, as of an idler.
+        Y_M: 1 for load on one flank, about 0.7 where both flanks bear load, as of an idler.
     slip_layer
-        rho' of the notch factor [m]; None: 3 um, nitrided 0.1 mm, through-hardened as of 1000 MPa.
+        rho' of the notch factor; None: 3 um, nitrided 0.1 mm, through-hardened as of 1000 MPa.
     some_pitting, endurance
         Whether some pitting is allowed; whether best material and oil keep the life factors at 1 up
         to 1e10 cycles, which is not checked against the source.
-    modulus, poisson_ratio, density
-        [Pa], [-], [kg/m3].
 
     Examples
     --------
@@ -73,9 +62,7 @@ class RatedGear(Checked):
     profile_deviation: Annotated[float, _DEVIATION] = 12e-6
     flank_roughness: Annotated[float, Number("m", 1e-7, 2e-4, "6 um is 6e-6 m.")] = 5e-6
     root_roughness: Annotated[float, Number("m", 1e-7, 4e-4, "20 um is 2e-5 m.")] = 20e-6
-    arithmetic_roughness: Annotated[float | None, Number("m", 1e-8, 3e-5, "0.6 um is 6e-7 m.")] = (
-        None
-    )
+    arithmetic_roughness: Annotated[float | None, _ARITHMETIC] = None
     bore: Annotated[float, Number("m", 0.0, 10.0, "Give metres, not millimetres.")] = 0.0
     rim_ratio: float = math.inf
     protuberance: Annotated[float, Number("m", 0.0, 5e-3, "Give metres, not millimetres.")] = 0.0
@@ -136,13 +123,13 @@ class LoadFactors(Checked):
     Parameters
     ----------
     face
-        K_H beta [-]: greatest over mean line load along the face. Where a solved distribution gives
-        it, set `transverse` to 1 if that is in it too, and `dynamic` to 1 if the loads are those of
+        K_H beta: greatest over mean line load along the face. Where a solved distribution gives it,
+        set `transverse` to 1 if that is in it too, and `dynamic` to 1 if the loads are those of
         solved dynamics. See also `face_load_factor` and `bevel_face_factor`.
     application, mesh_load
-        K_A; K_gamma: 1 with one path of power, 1.1 of three planets, 1.25 of four [-].
+        K_A; K_gamma: 1 with one path of power, 1.1 of three planets, 1.25 of four.
     dynamic, transverse, transverse_root, face_root
-        K_v, K_H alpha, K_F alpha, K_F beta [-].
+        K_v, K_H alpha, K_F alpha, K_F beta.
 
     Examples
     --------
@@ -212,8 +199,3 @@ def check_load(torque: float, speed: float, cycles: Pair, oil_viscosity: float) 
     for name, n in zip(("pinion", "gear"), cycles, strict=True):
         check_positive(f"cycles of the {name}", n, "", "60 times 1/min times hours.")
     check_within("oil_viscosity", oil_viscosity, 1e-6, 5e-3, "m2/s", "220 mm2/s is 2.2e-4 m2/s.")
-
-
-def said(*limits: tuple[bool, str]) -> tuple[str, ...]:
-    """Return the texts of limits that do not hold."""
-    return tuple(text for holds, text in limits if not holds)

@@ -9,29 +9,11 @@ from __future__ import annotations
 import math
 
 from gearlube_core.errors import ParameterError
+from gearlube_core.rating import load_factors as loads
 from gearlube_core.rating.bevel_mesh import BevelMesh, VirtualGears
-from gearlube_core.rating.gears import (
-    MM,
-    Gears,
-    LoadFactors,
-    Pair,
-    StrengthRating,
-    both,
-    check_load,
-    said,
-)
-from gearlube_core.rating.load_factors import (
-    dynamic_factor,
-    effective_deviations,
-    resonance_speed,
-    transverse_factor,
-)
-from gearlube_core.rating.strength import (
-    ToothForm,
-    elasticity_factor,
-    strength_rating,
-    tooth_form,
-)
+from gearlube_core.rating.gears import Gears, LoadFactors, StrengthRating, check_load
+from gearlube_core.rating.pairs import MM, Pair, both, said
+from gearlube_core.rating.strength import ToothForm, elasticity_factor, strength_rating, tooth_form
 
 _SINGLE, _MESH = 14.0, 20.0  # stiffnesses of teeth c', c_gamma [N/(mm um)]
 _TOOL = 1.25  # h_a0, normal modules
@@ -50,12 +32,6 @@ def bevel_rating(
 ) -> StrengthRating:
     """Return stress and strength of both members at one load; arguments as `cylindrical_rating`.
 
-    Raises
-    ------
-    ParameterError
-
-    Notes
-    -----
     Source: [iso_10300_2] [iso_10300_3], edition 2023: Z_KP 1.2 in the strength, where edition 2014
     had Z_K 0.85 in the stress. A gear without generation (formate) has another Y_Fa than here.
     Z_Hyp is quoted from memory; it meets two printed values.
@@ -83,74 +59,58 @@ def bevel_rating(
     v_1 = 5e-4 * pinion_speed * mesh.diameters[0]
     v_2 = v_1 * math.cos(spirals[0]) / math.cos(spirals[1])
     Z_Hyp = _sliding_factor(mesh, v_1, v_2) if mesh.cones.offset else 1.0
-    forms = _tooth_form(mesh, 0), _tooth_form(mesh, 1)
     part = min(v.overlap_ratio, 1.0)
     Y = {
         "Y_eps": (0.25 + 0.75 / v.contact_ratio) * (1.0 - part) + 0.625 * part,
         "Y_BS": _spiral_factor(mesh),
         "Y_LS": v.sharing**2,
     }
-    # the form divides by the cosine of the effective angle, Y_Fa by that of the flank's own
-    own = math.cos(mesh.effective_angle) / math.cos(alpha)
+    rim = min(one.rim_ratio for one in gears)
+    spiral, angle = math.degrees(0.5 * sum(spirals)), math.degrees(mesh.effective_angle)
+    wide = mesh.face_width / mesh.cones.normal_module
     return strength_rating(
-        gears,
-        cycles,
-        K,
+        gears, cycles, K, both(lambda k: _tooth_form(mesh, k), (0, 1)),
         sigma_H0=math.sqrt(F_n / (v.line_length * v.radius)) * Z_MB * v.sharing * Z_E,
-        Z_BD=(1.0, 1.0),
         sigma_F=F_vmt / (v.face_width * v.module) * math.prod(Y.values()),
-        Y_F=both(lambda form: form.Y_F * own, forms),
-        forms=forms,
-        Y_B=(1.0, 1.0),
         module=v.module,
-        film={
-            "oil_viscosity": oil_viscosity, "speed": v_2, "radius": v.radius,
-            "further": _Z_KP * Z_Hyp,
-        },
+        film=(oil_viscosity, v_2, v.radius, _Z_KP * Z_Hyp),
         found={
             "F_mt": F_mt, "F_n": F_n, "eps_va": v.contact_ratio, "eps_vb": v.overlap_ratio,
             "b_vv": v.face_width, "l_bm": v.line_length, "rho_rel": v.radius, "Z_MB": Z_MB,
             "Z_LS": v.sharing, "Z_E": Z_E, "Z_Hyp": Z_Hyp, "Z_KP": _Z_KP, **Y,
         },
-        outside=_outside(mesh, K["N"], min(one.rim_ratio for one in gears)),
+        outside=said(
+            (v.contact_ratio < 2.0, f"virtual contact ratio below 2, got {v.contact_ratio:.3f}"),
+            (spiral <= 45.0, f"mean spiral angle up to 45 deg, got {spiral:.1f} deg"),
+            (angle <= 30.0, f"effective pressure angle up to 30 deg, got {angle:.1f} deg"),
+            (wide <= 13.0, f"face width up to 13 normal modules, got {wide:.1f}"),
+            (K["N"] <= 0.75, f"speed up to 0.75 of resonance for a checked K_v, got {K['N']:.2f}"),
+            (rim >= 1.2, f"thickness of the rim from 1.2 tooth depths on, got {rim:.2f}"),
+            (mesh.flank == "drive", "the formulas of the coast flank are from memory"),
+        ),
         standard="ISO 10300-1, -2, -3:2023, method B1",
     )  # fmt: skip
-
-
-def _outside(g: BevelMesh, N: float, rim: float) -> tuple[str, ...]:
-    v, spiral = g.virtual, math.degrees(0.5 * sum(g.spirals))
-    angle, wide = math.degrees(g.effective_angle), g.face_width / g.cones.normal_module
-    return said(
-        (v.contact_ratio < 2.0, f"virtual contact ratio below 2, got {v.contact_ratio:.3f}"),
-        (spiral <= 45.0, f"mean spiral angle up to 45 deg, got {spiral:.1f} deg"),
-        (angle <= 30.0, f"effective pressure angle up to 30 deg, got {angle:.1f} deg"),
-        (wide <= 13.0, f"face width up to 13 normal modules, got {wide:.1f}"),
-        (N <= 0.75, f"speed up to 0.75 of resonance for a checked K_v, got {N:.2f}"),
-        (rim >= 1.2, f"thickness of the rim from 1.2 tooth depths on, got {rim:.2f}"),
-        (g.flank == "drive", "the formulas of the coast flank are from memory"),
-    )
 
 
 def _load_factors(
     g: BevelMesh, gears: Gears, given: LoadFactors, F_vmt: float, pinion_speed: float
 ) -> dict[str, float]:
     v, e = g.virtual, g.virtual.contact_ratio + g.virtual.overlap_ratio
-    f_p = effective_deviations(gears)[0]
+    f_p = loads.effective_deviations(gears)[0]
     w = F_vmt * given.shock / v.face_width
     cos = math.cos(g.effective_angle)  # mean of both flanks
     masses = both(
         lambda one, d: math.pi / 8.0 * 1e-9 * one.density * (d / cos) ** 2,
         gears, g.diameters,
     )  # fmt: skip
-    n_E1 = resonance_speed(g.cones.pinion_teeth, masses, _MESH)
-    N = pinion_speed * 30.0 / math.pi / n_E1
+    n_E1, N = loads.resonance(g.cones.pinion_teeth, masses, _MESH, pinion_speed)
     B = f_p * _SINGLE / w
-    K_v = given.dynamic or dynamic_factor(N, e, (B, B, 1.0), (0.75, 1.25))
+    K_v = given.dynamic or loads.dynamic_factor(N, e, (B, B, 1.0), (0.75, 1.25))
     K_F0, R = 1.0, g.cones.gear_mean_cone_distance
     if g.cutter_radius is not None and g.cutter_radius <= R and g.spirals[1] > 0.0:
         q = 0.279 / math.log10(math.sin(g.spirals[1]))
         K_F0 = min(max(0.211 * (g.cutter_radius / R) ** q + 0.789, 1.0), 1.15)
-    K = transverse_factor(e, _MESH * f_p / (w * K_v * given.face))
+    K = loads.transverse_factor(e, _MESH * f_p / (w * K_v * given.face))
     relative = 2.0 * MM * g.cones.offset / g.diameters[1]
     K_Ha = given.transverse or max(K - (K - 1.0) * min(relative, 0.1) / 0.1, 1.0)
     return {
@@ -203,13 +163,12 @@ def _spiral_factor(g: BevelMesh) -> float:
 
 def _tooth_form(g: BevelMesh, k: int) -> ToothForm:
     """Return the form of pinion (0) or gear (1), load at the tip."""
-    v, alpha, rho = g.virtual, g.effective_angle, g.tool_radius[k]
-    x_s, x_h = g.thickness_shift[k], g.addendum_shift * (1.0 if k == 0 else -1.0)
-    z_n = v.teeth[k] / (math.cos(v.base_helix) ** 2 * math.cos(v.helix))
-    E = math.pi / 4.0 - x_s - _TOOL * math.tan(alpha)
-    E -= rho * (1.0 - math.sin(alpha)) / math.cos(alpha)
-    return tooth_form(
-        z_n, alpha, E, rho - _TOOL + x_h, rho,
-        tip_diameter=z_n + 2.0 * MM * g.addendum[k] / v.module,
-        half_angle=(math.pi / 2.0 + 2.0 * (x_h * math.tan(alpha) + x_s)) / z_n,
+    v, sign = g.virtual, (1.0, -1.0)[k]
+    form = tooth_form(
+        v.teeth[k] / (math.cos(v.base_helix) ** 2 * math.cos(v.helix)), g.effective_angle,
+        g.tool_radius[k], _TOOL, sign * g.addendum_shift,
+        addendum=MM * g.addendum[k] / v.module, thickness=g.thickness_shift[k],
     )  # fmt: skip
+    # the form divides by the cosine of the effective angle, Y_Fa by that of the flank's own
+    own = math.cos(g.effective_angle) / math.cos(g.pressure_angle)
+    return form._replace(Y_F=form.Y_F * own)

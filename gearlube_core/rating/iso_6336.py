@@ -9,38 +9,12 @@ from __future__ import annotations
 import math
 
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.helical_geometry.iso_6336_stiffness import (
-    IsoStiffness,
-    iso_stiffness,
-    rack_dedendum_of,
-    virtual_teeth,
-)
+from gearlube_core.helical_geometry import iso_6336_stiffness as teeth
 from gearlube_core.helical_geometry.pair import HelicalPair
-from gearlube_core.rating.gears import (
-    MM,
-    UM,
-    Gears,
-    LoadFactors,
-    Pair,
-    RatedGear,
-    StrengthRating,
-    both,
-    check_load,
-    said,
-)
-from gearlube_core.rating.load_factors import (
-    dynamic_factor,
-    effective_deviations,
-    resonance_speed,
-    run_in_relief,
-    transverse_factor,
-)
-from gearlube_core.rating.strength import (
-    ToothForm,
-    elasticity_factor,
-    strength_rating,
-    tooth_form,
-)
+from gearlube_core.rating import load_factors as loads
+from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear, StrengthRating, check_load
+from gearlube_core.rating.pairs import MM, UM, Pair, both, said
+from gearlube_core.rating.strength import ToothForm, elasticity_factor, strength_rating, tooth_form
 
 EDITIONS = ("2006", "2019")
 
@@ -62,14 +36,14 @@ def cylindrical_rating(
 ) -> StrengthRating:
     """Return stress and strength of both members at one load.
 
+    Source: [iso_6336_1] [iso_6336_2] [iso_6336_3], checked with [iso_tr_6336_30 example 1].
+    ParameterError where the teeth or the load are none that the formulas hold for.
+
     Parameters
     ----------
-    pair
-        External gears; tool and dedendum of its rack follow from root radii and `fillet_factor`.
-    gears
-        Pinion and gear.
-    factors
-        On the load.
+    pair, gears, factors
+        External gears, of which tool and dedendum of the rack follow from root radii and
+        `fillet_factor`; their material; K factors.
     pinion_torque, pinion_speed
         [N.m], [rad/s], both above 0.
     cycles
@@ -89,14 +63,6 @@ def cylindrical_rating(
         "2006", or "2019", of which Z_B, Y_beta and f_eps are not checked against the source;
         neither is Y_DT.
 
-    Raises
-    ------
-    ParameterError
-
-    Notes
-    -----
-    Source: [iso_6336_1] [iso_6336_2] [iso_6336_3], checked with [iso_tr_6336_30 example 1].
-
     Examples
     --------
     >>> import gearlube as gl
@@ -111,70 +77,47 @@ def cylindrical_rating(
     """
     check_load(pinion_torque, pinion_speed, cycles, oil_viscosity)
     check_option("edition", edition, EDITIONS)
-    check_within(
-        "transverse contact ratio", pair.transverse_contact_ratio, 1.0, 4.0, "",
-        "The formulas need single or double contact of teeth: use longer teeth.",
-    )  # fmt: skip
-    d1, b, m_n = (2.0 * MM * pair.pinion_reference_radius, MM * pair.face_width,
-                  MM * pair.normal_module)  # fmt: skip
-    F_t = 2e3 * pinion_torque / d1
-    v = pinion_speed * pair.pinion_reference_radius
+    cure = "The formulas need single or double contact of teeth: use longer teeth."
+    e_a, helix = pair.transverse_contact_ratio, math.degrees(pair.helix_angle)
+    check_within("transverse contact ratio", e_a, 1.0, 4.0, "", cure)
+    d1, b = 2.0 * MM * pair.pinion_reference_radius, MM * pair.face_width
+    m_n, u = MM * pair.normal_module, pair.ratio
+    F_t, v = 2e3 * pinion_torque / d1, pinion_speed * pair.pinion_reference_radius
     w = F_t * factors.shock / b
     moduli = both(lambda g: g.modulus, gears)
-    iso = iso_stiffness(pair, line_load=1e3 * w, modulus=moduli, blank_factor=blank_factor)
-    relief = run_in_relief(gears) if tip_relief is None else UM * tip_relief
+    iso = teeth.iso_stiffness(pair, line_load=1e3 * w, modulus=moduli, blank_factor=blank_factor)
+    relief = loads.run_in_relief(gears) if tip_relief is None else UM * tip_relief
     Z, Z_BD = _contact_factors(pair, edition, modified)
-    K = _load_factors(pair, gears, factors, iso, w, pinion_speed, relief, Z["Z_eps"])
-    Z_E, u = elasticity_factor(gears), pair.ratio
-    per_area = F_t * (u + 1.0) / (d1 * b * u)
-    sigma_H0 = Z["Z_H"] * Z_E * Z["Z_eps"] * Z["Z_beta"] * math.sqrt(per_area)
-    curvature = sum(1.0 / math.tan(pair.working_pressure_angle) / r for r in _base_radii(pair))
-    forms = _tooth_form(pair, gears[0], 0), _tooth_form(pair, gears[1], 1)
+    Z_E, per_area = elasticity_factor(gears), F_t * (u + 1.0) / (d1 * b * u)
     Y, f_eps = _bending_factors(pair, accurate, edition)
+    K = _load_factors(pair, gears, factors, iso, w, pinion_speed, relief, Z["Z_eps"])
+    bases = pair.pinion_base_radius, pair.gear_base_radius
+    curvature = sum(1.0 / math.tan(pair.working_pressure_angle) / r for r in bases)
     return strength_rating(
-        gears,
-        cycles,
-        K,
-        sigma_H0=sigma_H0,
-        Z_BD=Z_BD,
+        gears, cycles, K, both(lambda gear, k: _tooth_form(pair, gear, k, f_eps), gears, (0, 1)),
+        sigma_H0=Z["Z_H"] * Z_E * Z["Z_eps"] * Z["Z_beta"] * math.sqrt(per_area),
         sigma_F=F_t / (b * m_n) * math.prod(Y.values()),
-        Y_F=both(lambda form: form.Y_F * f_eps, forms),
-        forms=forms,
-        Y_B=both(_rim_factor, gears),
         module=m_n,
-        film={"oil_viscosity": oil_viscosity, "speed": v, "radius": MM / curvature},
+        film=(oil_viscosity, v, MM / curvature, 1.0),
         found={
             "F_t": F_t, "v": v, "c'": 1e-9 * iso.single, "c_ga": 1e-9 * iso.mesh, **Z, "Z_E": Z_E,
             **Y,
         },
-        outside=_outside(pair, v) + iso.outside,
+        outside=said(
+            (e_a < 2.5, f"transverse contact ratio below 2.5, got {e_a:.3f}"),
+            (helix <= 30.0, f"helix angle up to 30 deg, got {helix:.1f} deg"),
+            (v <= 60.0, f"pitch line speed up to 60 m/s, got {v:.1f} m/s"),
+        ) + iso.outside,
         standard=f"ISO 6336-1, -2, -3:{edition}, method B",
+        Z_BD=Z_BD,
+        Y_B=both(_rim_factor, gears),
     )  # fmt: skip
 
 
-def _outside(pair: HelicalPair, v: float) -> tuple[str, ...]:
-    eps, helix = pair.transverse_contact_ratio, math.degrees(pair.helix_angle)
-    return said(
-        (eps < 2.5, f"transverse contact ratio below 2.5, got {eps:.3f}"),
-        (helix <= 30.0, f"helix angle up to 30 deg, got {helix:.1f} deg"),
-        (v <= 60.0, f"pitch line speed up to 60 m/s, got {v:.1f} m/s"),
-    )
-
-
-def _base_radii(pair: HelicalPair) -> Pair:
-    return pair.pinion_base_radius, pair.gear_base_radius
-
-
 def _load_factors(
-    pair: HelicalPair,
-    gears: Gears,
-    given: LoadFactors,
-    iso: IsoStiffness,
-    w: float,
-    pinion_speed: float,
-    relief: float,
-    Z_eps: float,
-) -> dict[str, float]:
+    pair: HelicalPair, gears: Gears, given: LoadFactors, iso: teeth.IsoStiffness, w: float,
+    pinion_speed: float, relief: float, Z_eps: float,
+) -> dict[str, float]:  # fmt: skip
     c_single, c_mesh = 1e-9 * iso.single, 1e-9 * iso.mesh
     mean = (MM * (pair.pinion_tip_radius + pair.pinion_root_radius),
             MM * (pair.gear_tip_radius + pair.gear_root_radius))  # fmt: skip
@@ -183,21 +126,20 @@ def _load_factors(
         lambda g, d, u: 1e-9 * g.density * (1.0 - (MM * g.bore / d) ** 4) * size * u * u,
         gears, mean, (1.0, pair.ratio),
     )  # fmt: skip
-    n_E1 = resonance_speed(pair.pinion_teeth, masses, c_mesh)
-    N = pinion_speed * 30.0 / math.pi / n_E1
-    pitch, profile, larger = effective_deviations(gears)
-    shares = c_single * pitch / w, c_single * profile / w, abs(1.0 - c_single * relief / w)
+    n_E1, N = loads.resonance(pair.pinion_teeth, masses, c_mesh, pinion_speed)
+    pitch, profile, larger = loads.effective_deviations(gears)
+    B_p, B_f, B_k = c_single * pitch / w, c_single * profile / w, abs(1.0 - c_single * relief / w)
     e, e_a = pair.total_contact_ratio, pair.transverse_contact_ratio
     end = 0.85 if w >= 100.0 else 0.5 + 0.35 * math.sqrt(w / 100.0)
-    K_v = given.dynamic or dynamic_factor(N, e, shares, (end, 1.15))
+    K_v = given.dynamic or loads.dynamic_factor(N, e, (B_p, B_f, B_k), (end, 1.15))
     r = max(3.0, pair.face_width / (pair.pinion_tip_radius - pair.pinion_root_radius))
     K_Fb = given.face_root or given.face ** (r * r / (1.0 + r + r * r))
-    K = max(transverse_factor(e, c_mesh * larger / (w * K_v * given.face)), 1.0)
+    K = max(loads.transverse_factor(e, c_mesh * larger / (w * K_v * given.face)), 1.0)
     most_H, most_F = e / (e_a * Z_eps**2), e / (0.25 * e_a + 0.75)
     return {
-        "eps_a": e_a, "eps_b": pair.overlap_ratio, "n_E1": n_E1, "N": N,
-        "B_p": shares[0], "B_f": shares[1], "B_k": shares[2], "K_A": given.application,
-        "K_gam": given.mesh_load, "K_v": K_v, "K_Hb": given.face, "K_Fb": K_Fb,
+        "eps_a": e_a, "eps_b": pair.overlap_ratio, "n_E1": n_E1, "N": N, "B_p": B_p, "B_f": B_f,
+        "B_k": B_k, "K_A": given.application, "K_gam": given.mesh_load, "K_v": K_v,
+        "K_Hb": given.face, "K_Fb": K_Fb,
         "K_Ha": given.transverse or min(K, max(most_H, 1.0)),
         "K_Fa": given.transverse_root or min(K, max(most_F, 1.0)),
     }  # fmt: skip
@@ -247,17 +189,14 @@ def _rim_factor(gear: RatedGear) -> float:
     return 1.0 if gear.rim_ratio >= 1.2 else 1.6 * math.log(2.242 / gear.rim_ratio)
 
 
-def _tooth_form(pair: HelicalPair, gear: RatedGear, member: int) -> ToothForm:
-    x, h_fP = pair.profile_shifts[member], rack_dedendum_of(pair)[member]
+def _tooth_form(pair: HelicalPair, gear: RatedGear, member: int, f_eps: float) -> ToothForm:
     tip = (pair.pinion_tip_radius, pair.gear_tip_radius)[member]
     reference = (pair.pinion_reference_radius, pair.gear_reference_radius)[member]
-    rho, alpha, z_n = pair.fillet_factor, pair.normal_pressure_angle, virtual_teeth(pair)[member]
-    left = gear.protuberance / pair.normal_module
-    E = math.pi / 4.0 - h_fP * math.tan(alpha)
-    E += (left - (1.0 - math.sin(alpha)) * rho) / math.cos(alpha)
-    return tooth_form(
-        z_n, alpha, E, rho - h_fP + x, rho,
-        tip_diameter=z_n + 2.0 * (tip - reference) / pair.normal_module,
-        half_angle=(math.pi / 2.0 + 2.0 * x * math.tan(alpha)) / z_n,
+    form = tooth_form(
+        teeth.virtual_teeth(pair)[member], pair.normal_pressure_angle, pair.fillet_factor,
+        teeth.rack_dedendum_of(pair)[member], pair.profile_shifts[member],
+        addendum=(tip - reference) / pair.normal_module,
+        left=gear.protuberance / pair.normal_module,
         contact_ratio=pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2,
     )  # fmt: skip
+    return form._replace(Y_F=form.Y_F * f_eps)

@@ -16,26 +16,22 @@ from gearlube_core.errors import ParameterError
 Line = tuple[tuple[float, float], ...]
 
 _CASE: Line = ((1e5, 1.6), (5e7, 1.0), (1e10, 0.85))
-_THROUGH: Line = ((1e4, 2.5), (3e6, 1.0), (1e10, 0.85))
-PITTING = MappingProxyType(
-    {
-        "case_hardened": _CASE,
-        "induction_hardened": _CASE,
-        "through_hardened": _CASE,
-        "nitrided": ((1e5, 1.3), (2e6, 1.0), (1e10, 0.85)),
-        "nitrocarburised": ((1e5, 1.1), (2e6, 1.0), (1e10, 0.85)),
-    }
-)
+_ROOT: Line = ((1e3, 2.5), (3e6, 1.0), (1e10, 0.85))
+PITTING = MappingProxyType({
+    "case_hardened": _CASE,
+    "induction_hardened": _CASE,
+    "through_hardened": _CASE,
+    "nitrided": ((1e5, 1.3), (2e6, 1.0), (1e10, 0.85)),
+    "nitrocarburised": ((1e5, 1.1), (2e6, 1.0), (1e10, 0.85)),
+})  # fmt: skip
 SOME_PITTING: Line = ((6e5, 1.6), (1e7, 1.3), (1e9, 1.0), (1e10, 0.85))
-BENDING = MappingProxyType(
-    {
-        "case_hardened": ((1e3, 2.5), (3e6, 1.0), (1e10, 0.85)),
-        "induction_hardened": ((1e3, 2.5), (3e6, 1.0), (1e10, 0.85)),
-        "through_hardened": _THROUGH,
-        "nitrided": ((1e3, 1.6), (3e6, 1.0), (1e10, 0.85)),
-        "nitrocarburised": ((1e3, 1.1), (3e6, 1.0), (1e10, 0.85)),
-    }
-)
+BENDING = MappingProxyType({
+    "case_hardened": _ROOT,
+    "induction_hardened": _ROOT,
+    "through_hardened": ((1e4, 2.5), (3e6, 1.0), (1e10, 0.85)),
+    "nitrided": ((1e3, 1.6), (3e6, 1.0), (1e10, 0.85)),
+    "nitrocarburised": ((1e3, 1.1), (3e6, 1.0), (1e10, 0.85)),
+})  # fmt: skip
 TREATMENTS = tuple(PITTING)
 _LEAST, _MOST = 1e-4, 1e4  # of a torque factor
 _SMALL = 1e-9  # a damage that counts as none
@@ -44,17 +40,9 @@ _SMALL = 1e-9  # a damage that counts as none
 def strength_line(factors: Line, limit: float, influence: float) -> Line:
     """Return the strength over cycles, in the unit of the limit.
 
-    The static strength, at the first point, has no influence of lubrication, size and roughness;
-    the others have all of it, and logarithms are straight between.
-
-    Parameters
-    ----------
-    factors
-        Life factors, such as `PITTING["case_hardened"]`.
-    limit
-        Endurance limit at a life factor of 1.
-    influence
-        Product of all other factors of the strength [-].
+    Of life factors, such as `PITTING["case_hardened"]`, the endurance limit at a factor of 1, and
+    the product of all other factors of the strength [-]: the influence of lubrication, size and
+    roughness. The first point, the static strength, has none of it, the others have all.
     """
     (n, static), *others = factors
     return ((n, limit * static), *((m, limit * influence * factor) for m, factor in others))
@@ -63,7 +51,7 @@ def strength_line(factors: Line, limit: float, influence: float) -> Line:
 def strength(line: Line, cycles: float) -> float:
     """Return the strength, or the life factor, at a number of cycles; constant beyond both ends.
 
-    Source: [iso_6336_2] for Z_NT, [iso_6336_3] for Y_NT.
+    Source: Z_NT [iso_6336_2], Y_NT [iso_6336_3].
 
     Examples
     --------
@@ -75,9 +63,7 @@ def strength(line: Line, cycles: float) -> float:
 
 
 def cycles_to_failure(line: Line, stress: float | Array) -> Array:
-    """Return the cycles that a stress lasts.
-
-    0 above the first point, where it fails at once; infinite below the last.
+    """Return the cycles that a stress lasts: 0 above the first point, infinite below the last.
 
     Examples
     --------
@@ -115,26 +101,14 @@ def miner_sum(line: Line, stress: float | Array, cycles: float | Array) -> Array
 def torque_factor(damage: Callable[[float], float]) -> float:
     """Return the factor on all torques of a spectrum at which the damage is 1 [-].
 
-    The safety that users expect of a spectrum; 1 over the damage is none. Infinite: no torque
-    within 10 000 times damages. Where damage jumps from below 1 to failure at once, the factor is
-    that of the jump.
-
-    Parameters
-    ----------
-    damage
-        Miner's sum at a factor; it must not fall with the factor.
-
-    Raises
-    ------
-    ParameterError
-        There is damage of 1 already at 1e-4 times the torque.
+    The safety that users expect of a spectrum; 1 over the damage is none. `damage` is Miner's sum
+    at a factor, and must not fall with it. Infinite: no torque within 10 000 times damages. Where
+    damage jumps from below 1 to failure at once, the factor is that of the jump. ParameterError
+    where the damage is 1 already at 1e-4 times the torque.
 
     Examples
     --------
-    Bending: the stress grows with the torque, and one bin lasts for twice its cycles:
-
-    >>> line = BENDING["case_hardened"]
-    >>> damage = lambda factor: float(miner_sum(line, 1.2 * factor, 3e5))
+    >>> damage = lambda factor: float(miner_sum(BENDING["case_hardened"], 1.2 * factor, 3e5))
     >>> found = torque_factor(damage)
     >>> round(found, 3), round(damage(found), 6)
     (1.085, 1.0)

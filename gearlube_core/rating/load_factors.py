@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 
 from gearlube_core.checks import check_option, check_positive, check_within
-from gearlube_core.rating.gears import MPA, UM, Gears, RatedGear
+from gearlube_core.rating.gears import Gears, RatedGear
+from gearlube_core.rating.pairs import MPA, UM, Pair
 
 _CONTACT_CHECKS = {
-    "full_load": (1.0, 1.0, 1.0),
-    "light_load": (1.05, 1.10, 1.25),
-    "none": (1.20, 1.32, 1.50),
-}
+    "full_load": (1.0, 1.0, 1.0), "light_load": (1.05, 1.10, 1.25), "none": (1.20, 1.32, 1.50),
+}  # fmt: skip
 _RUN_IN_SHARE = 0.075  # of a deviation that running-in takes off hard flanks, at most 3 um
 
 
@@ -40,21 +39,24 @@ def run_in_relief(gears: Gears) -> float:
     return 0.5 * sum((limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5 for limit in limits)
 
 
-def dynamic_factor(
-    N: float, contact_ratio: float, shares: tuple[float, float, float], main: tuple[float, float]
-) -> float:
-    """Return K_v of method B [-]; source [iso_6336_1], [iso_10300_1].
+def resonance(teeth: float, masses: Pair, stiffness: float, speed: float) -> Pair:
+    """Return n_E1 of a pinion [1/min], and N, its speed [rad/s] over that of resonance [-].
 
-    Parameters
-    ----------
-    N
-        Speed over that of resonance [-].
-    contact_ratio
-        epsilon_gamma [-].
-    shares
-        B_p, B_f, B_k: of pitch and profile deviation and of tip relief [-].
-    main
-        Where the range of the main resonance begins and ends [-]; above it K_v falls until 1.5.
+    Masses are those per face width, reduced to the line of action [kg/mm], and the stiffness is
+    c_gamma alpha [N/(mm um)].
+    """
+    n_E1 = 3e4 / (math.pi * teeth) * math.sqrt(stiffness * (1.0 / masses[0] + 1.0 / masses[1]))
+    return n_E1, speed * 30.0 / math.pi / n_E1
+
+
+def dynamic_factor(
+    N: float, contact_ratio: float, shares: tuple[float, float, float], main: Pair
+) -> float:
+    """Return K_v of method B [-] at a speed N over that of resonance; [iso_6336_1], [iso_10300_1].
+
+    `contact_ratio` is epsilon_gamma, `shares` are B_p, B_f, B_k of pitch and profile deviation and
+    tip relief. The range of the main resonance begins and ends at `main`; above it K_v falls to N
+    of 1.5.
     """
     (B_p, B_f, B_k), e = shares, contact_ratio
     C_2, C_3, C_4, C_6 = 0.34, 0.23, 0.90, 0.47
@@ -88,7 +90,7 @@ def face_load_factor(
     *,
     misalignment: float,
     bending: float = 0.0,
-    correction: tuple[float, float] = (1.0, 1.0),
+    correction: Pair = (1.0, 1.0),
     contact_limit: float | None = None,
 ) -> float:
     """Return K_H beta of a pinion between bearings, method C [-]; a solved one is better.
@@ -99,14 +101,10 @@ def face_load_factor(
 
     Parameters
     ----------
-    line_load
-        F_m/b = F_t K_A K_gamma K_v/b [N/m].
-    face_width, pinion_diameter
-        b, d [m].
-    stiffness
-        c_gamma beta [N/m2], see `iso_stiffness`.
-    misalignment
-        f_ma, by manufacture [m].
+    line_load, face_width, pinion_diameter
+        F_m/b = F_t K_A K_gamma K_v/b [N/m], b [m], d [m].
+    stiffness, misalignment
+        c_gamma beta [N/m2], see `iso_stiffness`; f_ma, by manufacture [m].
     bending
         K' l s/d^2 (d/d_sh)^4 of the pinion's place between its bearings [-], with its sign.
     correction
@@ -136,12 +134,8 @@ def face_load_factor(
 def bevel_face_factor(contact_check: str, cantilevers: int) -> float:
     """Return K_H beta of bevel gears from how they are mounted [-]; a solved one is better.
 
-    Parameters
-    ----------
-    contact_check
-        How the contact pattern was checked: "full_load", "light_load" or "none".
-    cantilevers
-        How many of both members are mounted overhung: 0, 1 or 2.
+    The contact pattern was checked at "full_load", "light_load" or "none", and 0, 1 or 2 members
+    are mounted overhung: `cantilevers`.
 
     Examples
     --------
@@ -151,12 +145,3 @@ def bevel_face_factor(contact_check: str, cantilevers: int) -> float:
     check_option("contact_check", contact_check, _CONTACT_CHECKS)
     check_within("cantilevers", cantilevers, 0, 2, "", "Count the overhung members.")
     return 1.5 * _CONTACT_CHECKS[contact_check][int(cantilevers)]
-
-
-def resonance_speed(teeth: float, masses: tuple[float, float], stiffness: float) -> float:
-    """Return n_E1 of a pinion [1/min].
-
-    Masses are those per face width, reduced to the line of action [kg/mm], and the stiffness is
-    c_gamma alpha [N/(mm um)].
-    """
-    return 3e4 / (math.pi * teeth) * math.sqrt(stiffness * (1.0 / masses[0] + 1.0 / masses[1]))

@@ -11,7 +11,7 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
 from gearlube_core.rating.flank_load import FlankLoad
-from gearlube_core.rating.gears import MM, MPA, said
+from gearlube_core.rating.pairs import MM, MPA, said
 
 Viscosity = Callable[[float], float]  # eta [Pa.s] at a temperature [K]
 _T_38 = 311.0  # K

@@ -10,7 +10,7 @@ import numpy as np
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.flank_load import FlankLoad
-from gearlube_core.rating.gears import MM, UM, said
+from gearlube_core.rating.pairs import MM, UM, said
 
 _ZERO = 273.15  # K
 _FRICTION = "the friction of this method is a formula from memory; give friction"

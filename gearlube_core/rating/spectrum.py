@@ -11,8 +11,9 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
-from gearlube_core.rating.gears import Pair, StrengthRating
+from gearlube_core.rating.gears import StrengthRating
 from gearlube_core.rating.life import miner_sum
+from gearlube_core.rating.pairs import Pair
 
 PITTING_EXPONENT = 6.611  # of the torque, case-hardened, up to 5e7 cycles
 Rate = Callable[[float, float, float], StrengthRating]

@@ -9,21 +9,11 @@ from typing import NamedTuple
 from scipy.optimize import brentq
 
 from gearlube_core.errors import ParameterError
-from gearlube_core.rating.gears import (
-    MM,
-    MPA,
-    UM,
-    Factors,
-    Gears,
-    Pair,
-    RatedGear,
-    StrengthRating,
-    both,
-    said,
-)
+from gearlube_core.rating.gears import Gears, RatedGear, StrengthRating
 from gearlube_core.rating.life import Line, strength, strength_line
+from gearlube_core.rating.pairs import MM, MPA, UM, Factors, Pair, both, said
 
-_LAYERS = {"nitrided": 0.1005, "through_hardened": 0.0014}  # rho' [mm]
+_LAYERS = {"nitrided": 0.1005, "through_hardened": 0.0014}  # rho' [mm], from memory
 _HARD_LAYER = 0.0030
 # factor, constant and exponent of Y_R rel T
 _ROUGH, _ROUGH_NITRIDED = (1.674, 0.529, 0.1), (4.299, 3.259, 0.0058)
@@ -38,20 +28,11 @@ def elasticity_factor(gears: Gears) -> float:
 
 
 def _contact_lines(
-    gears: Gears, *, oil_viscosity: float, speed: float, radius: float, further: float = 1.0
+    gears: Gears, oil_viscosity: float, speed: float, radius: float, further: float
 ) -> tuple[tuple[Line, Line], Factors, tuple[str, ...]]:
     """Return sigma_HG over cycles [Pa], its factors, and what is missing.
 
     At few cycles Z_L, Z_v, Z_R and Z_W fade out to 1; Z_X is 1. Source: [iso_6336_2].
-
-    Parameters
-    ----------
-    oil_viscosity, speed
-        At 40 degC [m2/s]; of Z_v [m/s].
-    radius
-        Relative radius of curvature at the pitch point [mm].
-    further
-        Product of factors that the standard has besides [-].
     """
     softer = MPA * min(g.contact_limit for g in gears)
     C = min(max(softer / 4375.0 + 0.6357, 0.83), 0.91)
@@ -63,11 +44,10 @@ def _contact_lines(
     film = Z_L * Z_v * Z_R
 
     def line(gear: RatedGear, hardened: float) -> Line:
-        limit = gear.contact_limit * further
-        return strength_line(gear.contact_life, limit, film * hardened)
+        return strength_line(gear.contact_life, gear.contact_limit * further, film * hardened)
 
-    lines = line(gears[0], Z_W[0]), line(gears[1], Z_W[1])
-    return lines, {"Z_L": Z_L, "Z_v": Z_v, "Z_R": Z_R, "Z_W": Z_W}, missing
+    found: Factors = {"Z_L": Z_L, "Z_v": Z_v, "Z_R": Z_R, "Z_W": Z_W}
+    return both(line, gears, Z_W), found, missing
 
 
 def _work_hardening(gears: Gears, radius: float, film: float) -> tuple[Pair, tuple[str, ...]]:
@@ -81,8 +61,7 @@ def _work_hardening(gears: Gears, radius: float, film: float) -> tuple[Pair, tup
         return (1.0, 1.0), ()
     which = soft.index(True)
     soft_one, hard = gears[which], gears[1 - which]
-    hardness = soft_one.brinell
-    if hardness is None:
+    if soft_one.brinell is None:
         return (1.0, 1.0), (
             "brinell of the through-hardened gear is needed for the work hardening factor, got "
             "none: Z_W is 1",
@@ -90,9 +69,10 @@ def _work_hardening(gears: Gears, radius: float, film: float) -> tuple[Pair, tup
     R_z = UM * hard.flank_roughness
     R_zH = R_z * (10.0 / radius) ** 0.33 * (hard.flank_roughness / soft_one.flank_roughness) ** 0.66
     R_zH = min(max(R_zH / (film / 1500.0) ** 0.33, 3.0), 16.0)
-    Z_W = (1.2 - (min(max(hardness, 130.0), 470.0) - 130.0) / 1700.0) * (3.0 / R_zH) ** 0.15
-    said_of = ("the equivalent roughness of work hardening, R_zH, is a formula from memory",)
-    return ((Z_W, 1.0) if which == 0 else (1.0, Z_W)), said_of
+    hardness = min(max(soft_one.brinell, 130.0), 470.0)
+    Z_W = (1.2 - (hardness - 130.0) / 1700.0) * (3.0 / R_zH) ** 0.15
+    memory = ("the equivalent roughness of work hardening, R_zH, is a formula from memory",)
+    return ((Z_W, 1.0) if which == 0 else (1.0, Z_W)), memory
 
 
 class ToothForm(NamedTuple):
@@ -109,38 +89,33 @@ class ToothForm(NamedTuple):
 def tooth_form(
     z: float,
     alpha: float,
-    E: float,
-    G: float,
     rho: float,
+    depth: float,
+    shift: float,
     *,
-    tip_diameter: float,
-    half_angle: float,
+    addendum: float,
+    thickness: float = 0.0,
+    left: float = 0.0,
     contact_ratio: float = 1.0,
 ) -> ToothForm:
     """Return the form of a spur tooth in the normal section; lengths in normal modules.
+
+    Source: [iso_6336_3], [iso_10300_3]. ParameterError where the root has no tangent at 30 degrees.
 
     Parameters
     ----------
     z, alpha
         Virtual teeth and pressure angle [-], [rad].
-    E, G, rho
-        Auxiliary sizes of the tool and its tip radius.
-    tip_diameter
-        d_an.
-    half_angle
-        Half of the angle of the tooth at its reference circle [rad].
+    rho, depth, left
+        Of the tool: tip radius, addendum, protuberance less the grinding stock.
+    shift, thickness, addendum
+        Of the tooth: x or x_h, x_s, height of its tip above the reference circle.
     contact_ratio
         epsilon_alpha n, for load at the outer point of single contact; 1: at the tip.
-
-    Raises
-    ------
-    ParameterError
-        The root has no tangent at 30 degrees.
-
-    Notes
-    -----
-    Source: [iso_6336_3], [iso_10300_3].
     """
+    G = rho - depth + shift
+    E = math.pi / 4.0 - thickness - depth * math.tan(alpha)
+    E += (left - (1.0 - math.sin(alpha)) * rho) / math.cos(alpha)
     H = 2.0 / z * (math.pi / 2.0 - E) - math.pi / 3.0
     try:
         th = brentq(lambda t: t - 2.0 * G / z * math.tan(t) + H, 0.0, 0.49 * math.pi)
@@ -152,9 +127,11 @@ def tooth_form(
     s_Fn = z * math.sin(math.pi / 3.0 - th) + math.sqrt(3.0) * (G / math.cos(th) - rho)
     rho_F = rho + 2.0 * G * G / (math.cos(th) * (z * math.cos(th) ** 2 - 2.0 * G))
     d_b, step = z * math.cos(alpha), math.pi * math.cos(alpha) * (contact_ratio - 1.0)
-    d_e = 2.0 * math.hypot(0.5 * math.sqrt(tip_diameter**2 - d_b**2) - step, 0.5 * d_b)
+    reach = 0.5 * math.sqrt((z + 2.0 * addendum) ** 2 - d_b**2)
+    d_e = 2.0 * math.hypot(reach - step, 0.5 * d_b)
     a_e = math.acos(min(d_b / d_e, 1.0))
-    turn = half_angle + math.tan(alpha) - alpha - math.tan(a_e) + a_e
+    half = (math.pi / 2.0 + 2.0 * (shift * math.tan(alpha) + thickness)) / z
+    turn = half + math.tan(alpha) - alpha - math.tan(a_e) + a_e
     a_F = a_e - turn
     arm = (math.cos(turn) - math.sin(turn) * math.tan(a_F)) * d_e
     h = 0.5 * (arm - z * math.cos(math.pi / 3.0 - th) - G / math.cos(th) + rho)
@@ -164,91 +141,78 @@ def tooth_form(
     return ToothForm(Y_F, Y_S, q_s, s_Fn, h, rho_F)
 
 
-def _bending_lines(
-    gears: Gears, q_s: Pair, module: float
-) -> tuple[tuple[Line, Line], Factors, tuple[str, ...]]:
-    """Return sigma_FG over cycles [Pa], its factors, and where they leave their range.
+def _steel(gear: RatedGear) -> str:
+    return "nitrided" if gear.nitrided else gear.treatment
 
-    All factors count at any number of cycles, on the safe side where they are below 1; q_s is the
-    notch parameter, the module [mm]. Source: [iso_6336_3].
+
+def _root_factors(gear: RatedGear, q_s: float, module: float) -> dict[str, float]:
+    """Return the factors of sigma_FG [-] of the notch parameter and the module [mm].
+
+    All count at any number of cycles, on the safe side where they are below 1; [iso_6336_3].
     """
+    layer = _LAYERS.get(_steel(gear), _HARD_LAYER)
+    rho = layer if gear.slip_layer is None else MM * gear.slip_layer
+    notch = (1.0 + math.sqrt(0.2 * rho * (1.0 + 2.0 * q_s))) / (1.0 + math.sqrt(1.2 * rho))
+    most, less, power = _ROUGH_NITRIDED if gear.nitrided else _ROUGH
+    rough = most - less * (min(max(UM * gear.root_roughness, 1.0), 40.0) + 1.0) ** power
+    most, slope, least = _SIZE.get(gear.treatment, _HARD_SIZE)
+    size = min(max(most - slope * module, least), 1.0)
+    return {"Y_drelT": notch, "Y_RrelT": rough, "Y_X": size, "Y_M": gear.mean_stress}
 
-    def notch(gear: RatedGear, q: float) -> float:
-        layer = _LAYERS.get("nitrided" if gear.nitrided else gear.treatment, _HARD_LAYER)
-        rho = layer if gear.slip_layer is None else MM * gear.slip_layer
-        return (1.0 + math.sqrt(0.2 * rho * (1.0 + 2.0 * q))) / (1.0 + math.sqrt(1.2 * rho))
 
-    def rough(gear: RatedGear, _: float) -> float:
-        most, less, power = _ROUGH_NITRIDED if gear.nitrided else _ROUGH
-        return most - less * (min(max(UM * gear.root_roughness, 1.0), 40.0) + 1.0) ** power
-
-    def size(gear: RatedGear, _: float) -> float:
-        most, slope, least = _SIZE.get(gear.treatment, _HARD_SIZE)
-        return min(max(most - slope * module, least), 1.0)
-
-    Y_drelT, Y_RrelT, Y_X = (both(one, gears, q_s) for one in (notch, rough, size))
-    Y_M = gears[0].mean_stress, gears[1].mean_stress
-    lines = []
-    for gear, *factors in zip(gears, Y_drelT, Y_RrelT, Y_X, Y_M, strict=True):
-        limit = 2.0 * gear.bending_limit * math.prod(factors)
-        lines.append(tuple((n, limit * life) for n, life in gear.bending_life))
-    outside = said(
-        *((1.0 <= q < 8.0, f"notch parameter q_s within 1 to 8, got {q:.2f}") for q in q_s),
-        *(
-            (R_z <= 40.0, f"root roughness R_z up to 40 um, got {R_z:.0f} um")
-            for R_z in both(lambda g: UM * g.root_roughness, gears)
-        ),
-        (
-            all(
-                g.slip_layer is not None or not (g.nitrided or g.treatment in _LAYERS)
-                for g in gears
-            ),
-            "the slip layer rho' of this steel is from memory; give slip_layer",
-        ),
-    )
-    found: Factors = {"Y_drelT": Y_drelT, "Y_RrelT": Y_RrelT, "Y_X": Y_X, "Y_M": Y_M}
-    return (lines[0], lines[1]), found, outside
+def _bending_line(gear: RatedGear, factors: Mapping[str, float]) -> Line:
+    limit = 2.0 * gear.bending_limit * math.prod(factors.values())
+    return tuple((n, limit * life) for n, life in gear.bending_life)
 
 
 def strength_rating(
     gears: Gears,
     cycles: Pair,
     K: Mapping[str, float],
+    forms: tuple[ToothForm, ToothForm],
     *,
     sigma_H0: float,
-    Z_BD: Pair,
     sigma_F: float,
-    Y_F: Pair,
-    forms: tuple[ToothForm, ToothForm],
-    Y_B: Pair,
     module: float,
-    film: Mapping[str, float],
+    film: tuple[float, float, float, float],
     found: Factors,
     outside: tuple[str, ...],
     standard: str,
+    Z_BD: Pair = (1.0, 1.0),
+    Y_B: Pair = (1.0, 1.0),
 ) -> StrengthRating:
-    """Return the rating of nominal stresses [MPa], load factors and conditions of the film.
+    """Return the rating of nominal stresses [MPa] with load factors.
 
-    sigma_F is F/(b m_n) with the Y factors of both members; `film` is as for the contact strength.
+    sigma_F is F/(b m_n) with the Y factors of both members. `film` is the viscosity at 40 degC
+    [m2/s], the speed of Z_v [m/s], the relative radius of curvature at the pitch point [mm], and
+    the product of factors that the standard has besides.
     """
     shock = K["K_A"] * K["K_gam"]
     stress = sigma_H0 * math.sqrt(shock * K["K_v"] * K["K_Hb"] * K["K_Ha"]) / MPA
-    sigma_F0 = both(lambda Y, form, rim: sigma_F * Y * form.Y_S * rim, Y_F, forms, Y_B)
+    sigma_F0 = both(lambda form, rim: sigma_F * form.Y_F * form.Y_S * rim, forms, Y_B)
     loads = shock * K["K_v"] * K["K_Fb"] * K["K_Fa"] / MPA
-    contact, strength_H, missing = _contact_lines(gears, **film)
-    bending, strength_F, notched = _bending_lines(gears, both(lambda f: f.q_s, forms), module)
-    form = {
-        name: (getattr(forms[0], name), getattr(forms[1], name)) for name in ToothForm._fields[1:]
-    }
+    contact, of_film, missing = _contact_lines(gears, *film)
+    roots = both(lambda g, form: _root_factors(g, form.q_s, module), gears, forms)
+    first, second = (form._asdict() | root for form, root in zip(forms, roots, strict=True))
+    R_z = both(lambda g: UM * g.root_roughness, gears)
+    from_memory = [g.slip_layer is None and _steel(g) in _LAYERS for g in gears]
+    notched = said(
+        *(
+            (1.0 <= f.q_s < 8.0, f"notch parameter q_s within 1 to 8, got {f.q_s:.2f}")
+            for f in forms
+        ),
+        *((one <= 40.0, f"root roughness R_z up to 40 um, got {one:.0f} um") for one in R_z),
+        (not any(from_memory), "the slip layer rho' of this steel is from memory; give slip_layer"),
+    )
     return StrengthRating(
         contact_stress=both(lambda Z_B: Z_B * stress, Z_BD),
         bending_stress=both(lambda s: s * loads, sigma_F0),
         contact_lines=contact,
-        bending_lines=bending,
+        bending_lines=both(_bending_line, gears, roots),
         cycles=cycles,
         factors={
-            **K, **found, "sigma_H0": sigma_H0, "Z_BD": Z_BD, "Y_F": Y_F, **form, "Y_B": Y_B,
-            "sigma_F0": sigma_F0, **strength_H, **strength_F,
+            **K, **found, "sigma_H0": sigma_H0, "Z_BD": Z_BD, "Y_B": Y_B, "sigma_F0": sigma_F0,
+            **{name: (first[name], second[name]) for name in first}, **of_film,
             "Z_NT": both(lambda g, n: strength(g.contact_life, n), gears, cycles),
             "Y_NT": both(lambda g, n: strength(g.bending_life, n), gears, cycles),
         },
