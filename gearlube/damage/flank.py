@@ -49,7 +49,7 @@ def flank_damage(
     >>> states = gl.flank_states(axle, torque=100.0, speed=200.0, temperature=353.15)
     >>> found = flank_damage(states, axle.solid, 5e-18)
     >>> round(float(found.flash.max()))  # K
-    52
+    48
     """
     speeds = states.pinion_speed, states.gear_speed
     capacity = float(solid.density * solid.heat_capacity)

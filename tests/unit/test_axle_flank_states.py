@@ -11,6 +11,10 @@ from gearlube_core.dynamics.hypoid_axle.flank_states import flank_states
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.contact_kinematics import path_kinematics
+from gearlube_core.hypoid_contact.contact_path import contact_migration, contact_path
+from gearlube_core.hypoid_contact.pair import FlankPair
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 
 SPEED, OIL, K = 209.4, 353.15, 5e-18
 RUBBING = [LOSS_SOURCES.index(one) for one in ("friction_viscous", "friction_boundary")]
@@ -56,6 +60,26 @@ def test_loads_carry_the_torque_and_stay_on_the_tooth(axle, states):
     assert (np.diff(states.phase) > 0.0).all()
     width, height = mesh.tooth_size
     assert ((states.place >= 0.0) & (states.place <= [width, height])).all()
+
+
+@pytest.mark.parametrize(("side", "torque"), [("drive", 5.0), ("coast", -5.0)])
+def test_flanks_pass_the_moving_contact_as_those_in_tangency_do(axle, side, torque):
+    """The light contact follows the path of rigid flanks, whose migration is exact."""
+    pair = FlankPair.from_file(HypoidGearFile.named("mohammadpour_2015"), side)
+    path = contact_path(pair, np.linspace(-0.6, 0.6, 25) * pair.gear_pitch)
+    exact, moves = path_kinematics(path), contact_migration(path)
+    found = flank_states(axle, torque=torque, speed=SPEED, temperature=OIL)
+    face = found.place[:, 0] / axle.mesh.tooth_size[0]
+    order = np.argsort(face)
+    both = (path.gear_t > face.min() + 0.01) & (path.gear_t < face.max() - 0.01) & path.inside
+    assert both.sum() > 10
+    for speeds, of_flank in (
+        (found.gear_speed, exact.velocity_g), (found.pinion_speed, exact.velocity_p),
+    ):  # fmt: skip
+        expected = SPEED * np.einsum("ni,ni->n", of_flank - moves, exact.minor_axis)[both]
+        got = np.interp(path.gear_t[both], face[order], speeds[order])
+        # the table has 20 nodes in a period; past a point at rest flanks are 10 to 30 % slower
+        np.testing.assert_allclose(got, expected, rtol=0.015)
 
 
 def test_engagement_that_passes_the_end_of_the_window_stays_whole(axle):

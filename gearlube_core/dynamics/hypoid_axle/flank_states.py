@@ -54,6 +54,8 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 
 _COLUMNS = 8
 _ROLLERS = 4  # place of the rollers behind forces and film of a bearing
+# of the speed past a point at rest; less where an edge of the tooth holds the centre of the force
+_HELD = 0.5
 _LEAST_LOAD = 1e-6  # of the largest, above what rounding leaves
 
 
@@ -225,7 +227,16 @@ def flank_states(
             asperity_contact(F, F / p_m, ratio, law.surface, solid, int(law.form))[0] / F
             for F, p_m, ratio in zip(load, mean, film_ratio, strict=True)
         ])  # fmt: skip
-    across, half = of_pair.entrainment[:, 0], 0.5 * of_pair.sliding[:, 0]
+    across, half = speed * of_pair.entrainment[:, 0], 0.5 * speed * of_pair.sliding[:, 0]
+    still = np.stack([across + half, across - half])
+    # the contact moves over the gear tooth, so flanks pass it faster than they pass a point at rest
+    place, major = placed("tooth_along", "tooth_up"), placed("major_along", "major_up")
+    axes = np.stack([placed("minor_along", "minor_up"), major], -1)
+    periods = speed * mesh.pinion_teeth / (2.0 * math.pi)
+    moved = np.linalg.solve(axes, periods * np.gradient(place, phase, axis=0)[..., None])
+    pinion_speed, gear_speed = still + np.maximum(
+        np.abs(moved[:, 0, 0]) - still[1], -_HELD * still.min(axis=0)
+    )
     return FlankStates(
         phase=phase,
         load=load,
@@ -238,11 +249,11 @@ def flank_states(
         asperity_share=share,
         outside=outside,
         sliding=sliding,
-        pinion_speed=speed * (across + half),
-        gear_speed=speed * (across - half),
+        pinion_speed=pinion_speed,
+        gear_speed=gear_speed,
         table_pressure=placed("pressure_max")[:, 0],
-        place=placed("tooth_along", "tooth_up"),
-        major=placed("major_along", "major_up"),
+        place=place,
+        major=major,
         share_of_time=1.0 / angles,
         bulk=bulk,
         carried=float(carried),
