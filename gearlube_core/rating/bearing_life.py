@@ -16,35 +16,24 @@ from gearlube_core.number import Checked, Number, Positive
 
 # Cleanliness classes of ISO 4406 for oil with a filter in its circuit, for a bath without one, and
 # of grease: A, B of e_C. Those of oil are not checked against the source.
-CLEANLINESS = MappingProxyType(
-    {
-        "-/13/10": (0.0864, 0.5663),
-        "-/15/12": (0.0432, 0.9987),
-        "-/17/14": (0.0288, 1.6329),
-        "-/19/16": (0.0216, 2.3362),
-        "bath -/13/10": (0.0864, 0.5796),
-        "bath -/15/12": (0.0288, 1.141),
-        "bath -/17/14": (0.0133, 1.67),
-        "bath -/19/16": (0.00864, 2.5164),
-        "bath -/21/18": (0.00411, 3.8974),
-        "grease, very clean": (0.0864, 0.6796),
-        "grease, clean": (0.0432, 1.141),
-        "grease, slightly dirty": (0.0177, 1.887),
-        "grease, dirty": (0.0115, 2.662),
-        "grease, very dirty": (0.00617, 4.06),
-    }
-)
+CLEANLINESS = MappingProxyType({
+    "-/13/10": (0.0864, 0.5663), "-/15/12": (0.0432, 0.9987),
+    "-/17/14": (0.0288, 1.6329), "-/19/16": (0.0216, 2.3362),
+    "bath -/13/10": (0.0864, 0.5796), "bath -/15/12": (0.0288, 1.141),
+    "bath -/17/14": (0.0133, 1.67), "bath -/19/16": (0.00864, 2.5164),
+    "bath -/21/18": (0.00411, 3.8974),
+    "grease, very clean": (0.0864, 0.6796), "grease, clean": (0.0432, 1.141),
+    "grease, slightly dirty": (0.0177, 1.887), "grease, dirty": (0.0115, 2.662),
+    "grease, very dirty": (0.00617, 4.06),
+})  # fmt: skip
 RELIABILITY = MappingProxyType({90: 1.0, 95: 0.64, 96: 0.55, 97: 0.47, 98: 0.37, 99: 0.25})  # a_1
 _LEAST_KAPPA, _MOST_KAPPA = 0.1, 4.0
-_MOST, _MOST_EP, _CLEAN_EP = (
-    50.0,
-    3.0,
-    0.2,
-)  # a_ISO, with EP additives, and e_C from which they count
+_MOST, _MOST_EP = 50.0, 3.0  # a_ISO, and with EP additives
+_CLEAN_EP = 0.2  # e_C from which additives count
 _POWERS = (0.054381, 0.19087, 0.071739)  # of kappa below 0.4, below 1, above
 _LARGE = 0.1  # m, pitch diameter from which C_u is lower
 _END_LOADS = 0.83  # lambda_nu, by which C is lower for loads at the ends of rollers
-_Kind = Literal["radial_ball", "radial_roller", "thrust_ball", "thrust_roller"]
+_FORCE, _METRES = Positive("N", "1 kN is 1000 N."), "Give metres, not millimetres."
 
 
 class _Law(NamedTuple):
@@ -92,12 +81,9 @@ class RatedBearing(Checked):
     ----------
     kind
         "radial_ball", "radial_roller" (cylindrical, tapered), "thrust_ball" or "thrust_roller".
-    dynamic_rating, static_rating
-        C, C_0 [N].
-    fatigue_limit
-        C_u [N]; None: C_0/22 of balls, C_0/8.2 of rollers, lower above a pitch diameter of 100 mm.
-    pitch_diameter, element_diameter, contact_angle
-        [m], [m], [rad].
+    dynamic_rating, static_rating, fatigue_limit
+        C, C_0, C_u; None: C_0/22 of balls, C_0/8.2 of rollers, lower above a pitch diameter of
+        100 mm.
     elements, rows
         Balls or rollers of a row, and rows.
     grooves
@@ -106,15 +92,15 @@ class RatedBearing(Checked):
     Examples
     --------
     >>> bearing = RatedBearing(kind="radial_ball", dynamic_rating=55.3e3, pitch_diameter=72.5e-3)
-    >>> f"{(bearing.dynamic_rating / 10e3) ** bearing.law.life:.1f}"  # 1e6 turns
-    '169.1'
+    >>> round((bearing.dynamic_rating / 10e3) ** bearing.law.life, 1)  # 1e6 turns
+    169.1
     """
 
-    kind: _Kind
-    dynamic_rating: Annotated[float, Positive("N", "1 kN is 1000 N.")]
-    pitch_diameter: Annotated[float, Number("m", 1e-3, 10.0, "Give metres, not millimetres.")]
-    static_rating: Annotated[float | None, Positive("N", "1 kN is 1000 N.")] = None
-    fatigue_limit: Annotated[float | None, Positive("N", "1 kN is 1000 N.")] = None
+    kind: Literal["radial_ball", "radial_roller", "thrust_ball", "thrust_roller"]
+    dynamic_rating: Annotated[float, _FORCE]
+    pitch_diameter: Annotated[float, Number("m", 1e-3, 10.0, _METRES)]
+    static_rating: Annotated[float | None, _FORCE] = None
+    fatigue_limit: Annotated[float | None, _FORCE] = None
     element_diameter: Annotated[float | None, Positive("m", "Give metres.")] = None
     contact_angle: Annotated[float, Number("rad", 0.0, 0.5 * math.pi, "Give radians.")] = 0.0
     elements: Annotated[int, Number("1", 0, 500)] = 0
@@ -149,15 +135,13 @@ class RatedBearing(Checked):
                 f"The loads of elements need a radial bearing with elements and element_diameter, "
                 f"got a {self.kind} with {self.elements} and {self.element_diameter}. Give `load`."
             )
-        law, gamma = self.law, self.element_diameter * math.cos(self.contact_angle)
-        gamma /= self.pitch_diameter
+        law, cos, (inner, outer) = self.law, math.cos(self.contact_angle), self.grooves
+        gamma = self.element_diameter * cos / self.pitch_diameter
         factor, power, groove = law.race
-        inner, outer = self.grooves
         ratio = factor * ((1.0 - gamma) / (1.0 + gamma)) ** power
         ratio *= (inner / outer * (2.0 * outer - 1.0) / (2.0 * inner - 1.0)) ** groove
         w = law.exponent(turns=False)
-        one = self.dynamic_rating / (self.elements * math.cos(self.contact_angle))
-        one /= self.rows**law.rows
+        one = self.dynamic_rating / (self.elements * cos) / self.rows**law.rows
         return (
             one / law.shares[0] * (1.0 + ratio**w) ** (1.0 / w),
             one / law.shares[1] * (1.0 + ratio**-w) ** (1.0 / w),
@@ -211,23 +195,17 @@ def equivalent_load(
 ) -> float:
     """Return P [N] of a radial bearing: F_r, or X F_r + Y F_a where F_a/F_r is above e.
 
-    Parameters
-    ----------
-    radial, axial
-        F_r, F_a, not negative [N].
-    contact_angle
-        Of a single row of tapered rollers [rad]: e 1.5 tan a, X 0.4, Y 0.4 cot a. 0: F_r, of
-        cylindrical rollers.
-    catalogue
-        e, X, Y of a catalogue instead, as for balls.
+    Radial and axial load [N] are not negative. With the contact angle of a single row of tapered
+    rollers [rad]: e 1.5 tan a, X 0.4, Y 0.4 cot a. 0: F_r, of cylindrical rollers. `catalogue` has
+    e, X, Y of a catalogue instead, as for balls.
 
     Examples
     --------
     >>> round(equivalent_load(4e3, 3e3, contact_angle=0.25))
     6300
     """
-    check_within("radial", radial, 0.0, 1e9, "N", "Give its amount.")
-    check_within("axial", axial, 0.0, 1e9, "N", "Give its amount.")
+    for name, load in (("radial", radial), ("axial", axial)):
+        check_within(name, load, 0.0, 1e9, "N", "Give its amount.")
     if catalogue is not None:
         e, X, Y = catalogue
     elif contact_angle > 0.0:
@@ -253,43 +231,32 @@ def bearing_life(
 ) -> BearingLife:
     """Return basic and modified life of a bearing.
 
+    Slices: L = [sum (q_ci/q_ei)^-4.5 + (q_ce/q_ee)^-4.5]^(-8/9), q_c = Q_c n^(-7/9), with the means
+    q_e of the loads of all rollers. A slice's a_ISO is that of a bearing with all slices alike.
+    ParameterError where loads or viscosity are missing or impossible. Source: [iso_281];
+    [iso_16281].
+
     Parameters
     ----------
-    bearing
-        Ratings and sizes.
-    speed
-        Of one ring relative to the other [rad/s].
+    bearing, speed
+        Ratings and sizes; speed of one ring relative to the other [rad/s].
     cleanliness
         A key of `CLEANLINESS`, or A and B of e_C.
-    load
-        P, see `equivalent_load` [N].
-    element_loads
-        Instead of P: of each ball (Z,) or of each slice of each roller (Z, n), with several rows
-        (rows, Z, n) [N].
-    viscosity
-        Kinematic, at the temperature of the raceway [m2/s].
-    film_ratio
-        Instead: least film over composite roughness of raceway and element; kappa is its power 1.3,
-        not checked against the source.
+    load, element_loads
+        P, see `equivalent_load` [N], or loads of each ball (Z,) or of each slice of each roller
+        (Z, n), with several rows (rows, Z, n) [N].
+    viscosity, film_ratio
+        Kinematic, at the temperature of the raceway [m2/s], or least film over composite roughness
+        of raceway and element; kappa is its power 1.3, not checked against the source.
     reliability
         90, 95 to 99 [%].
     additives
         Whether proven EP additives let kappa below 1 count as 1.
     inner_turns
-        Relative to the load.
+        Whether the inner ring turns relative to the load.
     end_loads
         Whether slices at the ends of rollers bear the standard's multiples of their loads; not
         checked against the source. False: loads have them, or rollers are profiled.
-
-    Raises
-    ------
-    ParameterError
-
-    Notes
-    -----
-    Slices: L = [sum (q_ci/q_ei)^-4.5 + (q_ce/q_ee)^-4.5]^(-8/9), q_c = Q_c n^(-7/9), with the means
-    q_e of the loads of all rollers. A slice's a_ISO is that of a bearing with all slices alike.
-    Source: [iso_281]; [iso_16281].
 
     Examples
     --------
@@ -311,10 +278,8 @@ def bearing_life(
         if (first is None) == (second is None):
             raise ParameterError(f"Give {names}, one of them.")
     law = bearing.law
-    if viscosity is not None:
-        kappa = viscosity / reference_viscosity(speed, bearing.pitch_diameter)
-    else:
-        kappa = max(film_ratio or 0.0, 0.0) ** 1.3
+    nu_1 = reference_viscosity(speed, bearing.pitch_diameter)
+    kappa = max(film_ratio or 0.0, 0.0) ** 1.3 if viscosity is None else viscosity / nu_1
     e_C = contamination_factor(cleanliness, kappa, bearing.pitch_diameter)
     with_ep = additives and kappa < 1.0 and e_C >= _CLEAN_EP
     used = 1.0 if with_ep else min(kappa, _MOST_KAPPA)
@@ -327,8 +292,8 @@ def bearing_life(
     if bearing.fatigue_limit is None and bearing.pitch_diameter > _LARGE:
         outside.append("C_u of bearings above 100 mm is a formula from memory; give fatigue_limit")
     if element_loads is None:
-        sums = np.array([(check_positive("load", load or 0.0, "N") / bearing.dynamic_rating)])
-        sums = sums ** (law.life * law.weibull)
+        share = check_positive("load", load or 0.0, "N") / bearing.dynamic_rating
+        sums = np.array([share]) ** (law.life * law.weibull)
     else:
         sums = _slice_sums(bearing, np.asarray(element_loads), inner_turns, end_loads)
     basic = float(sums.sum() ** (-1.0 / law.weibull))
@@ -338,8 +303,7 @@ def bearing_life(
         ratio = e_C * bearing.fatigue_load / np.maximum(loads, 1e-9 * bearing.dynamic_rating)
         ratio /= law.thrust if bearing.kind.startswith("thrust") else 1.0
         of_slices = law.modification(used, ratio, _MOST_EP if with_ep else _MOST)
-        changed = float((sums * of_slices**-law.weibull).sum() ** (-1.0 / law.weibull))
-        a_iso = changed / basic
+        a_iso = float((sums * of_slices**-law.weibull).sum() ** (-1.0 / law.weibull)) / basic
     a_1 = RELIABILITY[reliability]
     return BearingLife(
         basic=1e6 * basic,

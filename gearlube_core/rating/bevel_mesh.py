@@ -14,8 +14,6 @@ from gearlube_core.number import Checked, Number, Positive
 from gearlube_core.rating.pairs import MM, Pair, both
 
 _METRES = "Give metres, not millimetres."
-_Flank = Literal["drive", "coast"]
-_Crowning = Literal["low", "high"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,23 +22,17 @@ class BevelMesh(Checked):
 
     Parameters
     ----------
-    cones
-        Pitch cones at the mean point.
-    face_width
-        b2, of the gear [m].
+    cones, face_width
+        Pitch cones at the mean point; b2, of the gear.
     addendum, dedendum
         h_am, h_fm of pinion and gear at mid-face [m].
     effective_angle
-        alpha_e of this flank [rad]; its pressure angle is that of the blades beside the limit
-        pressure angle.
-    thickness_shift
-        x_sm of pinion and gear [-].
-    tool_radius
-        rho_a0 of the cutters' edges, in normal modules [-].
-    cutter_radius
-        r_c0 [m]; None: not known, K_F0 is 1.
-    effective_width
-        Share of the face in contact [-]; solved, or 0.85.
+        alpha_e of this flank; its pressure angle is that of the blades beside the limit pressure
+        angle.
+    thickness_shift, tool_radius
+        x_sm of pinion and gear; rho_a0 of the cutters' edges, in normal modules [-].
+    cutter_radius, effective_width
+        r_c0; None: not known, K_F0 is 1. Share of the face in contact; solved, or 0.85.
     flank
         "drive" or "coast". Coast takes the formulas with the other sign of the limit pressure
         angle, which is not checked against the source.
@@ -56,7 +48,7 @@ class BevelMesh(Checked):
     """
 
     cones: PitchCones
-    face_width: Annotated[float, Positive("m", "Give metres, not millimetres.")]
+    face_width: Annotated[float, Positive("m", _METRES)]
     addendum: Pair
     dedendum: Pair
     effective_angle: Annotated[float, Number("rad", 0.1, 0.8, "20 deg is 0.349 rad.")] = 0.349066
@@ -64,8 +56,8 @@ class BevelMesh(Checked):
     tool_radius: Pair = (0.25, 0.25)
     cutter_radius: Annotated[float | None, Positive("m", "Give metres.")] = None
     effective_width: Annotated[float, Number("1", 0.3, 1.0, "0.85 if not known.")] = 0.85
-    flank: _Flank = "drive"
-    profile_crowning: _Crowning = "low"
+    flank: Literal["drive", "coast"] = "drive"
+    profile_crowning: Literal["low", "high"] = "low"
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -79,23 +71,19 @@ class BevelMesh(Checked):
         """Return the mesh of a blank with perpendicular axes; other fields as given."""
         pinion, gear = blank.pinion, blank.gear
         cones = PitchCones(
-            pinion_teeth=pinion.teeth,
-            gear_teeth=gear.teeth,
-            offset=blank.offset,
+            pinion_teeth=pinion.teeth, gear_teeth=gear.teeth, offset=blank.offset,
             shaft_angle=0.5 * math.pi,
-            pinion_pitch_angle=pinion.pitch_angle,
-            gear_pitch_angle=gear.pitch_angle,
+            pinion_pitch_angle=pinion.pitch_angle, gear_pitch_angle=gear.pitch_angle,
             pinion_mean_cone_distance=pinion.mean_cone_distance,
             gear_mean_cone_distance=gear.mean_cone_distance,
             pinion_spiral_angle=abs(pinion.spiral_angle),
             gear_spiral_angle=abs(gear.spiral_angle),
-        )
-        heights: dict[str, Any] = {
+        )  # fmt: skip
+        return cls(**{
+            "cones": cones, "face_width": gear.face_width,
             "addendum": (pinion.addendum, gear.addendum),
-            "dedendum": (blank.pinion_dedendum, blank.gear_dedendum),
-            "face_width": gear.face_width,
-        }
-        return cls(cones=cones, **{**heights, **given})
+            "dedendum": (blank.pinion_dedendum, blank.gear_dedendum), **given,
+        })  # fmt: skip
 
     @property
     def limit_angle(self) -> float:
@@ -197,12 +185,9 @@ def _contact_lines(
         if abs(slope) < 1e-9:  # straight bevel gears: lines along the face
             bare = width if abs(f) < 0.5 * path else 0.0
         else:
-            ends = (
-                (middle + 0.5 * sign * (path + sign * width * shear)) / slope
-                for sign in (1.0, -1.0)
-            )
-            first, last = (min(max(x, 0.0), width) for x in ends)
-            bare = abs(first - last) / cos
+            first = (middle + 0.5 * (path + width * shear)) / slope
+            last = (middle - 0.5 * (path - width * shear)) / slope
+            bare = abs(min(max(first, 0.0), width) - min(max(last, 0.0), width)) / cos
         inner = math.sqrt(max(1.0 - (f / largest) ** 2, 0.0))
         return bare * (1.0 - inner * (1.0 - math.sqrt(g.effective_width)))
 

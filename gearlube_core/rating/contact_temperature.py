@@ -11,12 +11,12 @@ from scipy.special import ndtr
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
+from gearlube_core.units import ZERO_CELSIUS
 
 STEEL_EFFUSIVITY = 13_780.0  # sqrt(k rho c) [W s^0.5/(m2 K)]
 STEEL_DIFFUSIVITY = 12e-6  # k/(rho c) [m2/s]
 _LEAST_PECLET = 5.0
 _SPREAD = 0.15  # of the scuffing temperature [degC], standard deviation
-_ZERO = 273.15
 _Number = Array | float
 
 
@@ -49,6 +49,10 @@ def contact_temperature(
     T(x) = T_M + 1/(pi^(1/2) (b1 u1^(1/2) + b2 u2^(1/2))) int q(s)/(x - s)^(1/2) ds
     T_M = (b1 u1^(1/2) T1 + b2 u2^(1/2) T2)/(b1 u1^(1/2) + b2 u2^(1/2))
 
+    Exact for heat constant in cells that flows into the depth alone: for a Peclet number above 5.
+    Heat divides so that both surfaces have one temperature at every place. ParameterError where
+    x does not increase or the speeds differ in sign. Source: [blok_1937], [jaeger_1942].
+
     Parameters
     ----------
     x
@@ -59,24 +63,10 @@ def contact_temperature(
     speeds
         u1, u2 of both surfaces across the line of contact, relative to it, all of one sign [m/s];
         numbers or shape (...), as the next two.
-    bulk
-        T1, T2 of both bodies before the contact [K].
-    half_width
-        a [m]; 1: x is in m.
-    effusivity
-        b1, b2 = (k rho c)^(1/2) [W s^0.5/(m2 K)].
-    diffusivity
-        k/(rho c), for the Peclet number [m2/s].
-
-    Raises
-    ------
-    ParameterError
-
-    Notes
-    -----
-    Exact for heat constant in cells that flows into the depth alone: for a Peclet number above 5.
-    Heat divides so that both surfaces have one temperature at every place.
-    Source: [blok_1937], [jaeger_1942].
+    bulk, half_width
+        T1, T2 of both bodies before the contact [K]; a [m], 1: x is in m.
+    effusivity, diffusivity
+        b1, b2 = (k rho c)^(1/2) [W s^0.5/(m2 K)]; k/(rho c), for the Peclet number [m2/s].
 
     Examples
     --------
@@ -104,10 +94,8 @@ def contact_temperature(
             half_width=half_width, effusivity=effusivity, diffusivity=diffusivity,
         )  # fmt: skip
         return turned._replace(temperature=turned.temperature[::-1])
-    a, first, second = (
-        np.asarray(half_width),
-        *(b * np.sqrt(u) for b, u in zip(effusivity, (u1, u2), strict=True)),
-    )
+    a = np.asarray(half_width)
+    first, second = effusivity[0] * np.sqrt(u1), effusivity[1] * np.sqrt(u2)
     T_M = (first * bulk[0] + second * bulk[1]) / (first + second)
     reach = np.sqrt(np.maximum(x[:, None] - x, 0.0))
     integral = 2.0 * np.tensordot(reach[:, :-1] - reach[:, 1:], heat, axes=1) * np.sqrt(a)
@@ -121,15 +109,9 @@ def contact_temperature(
 def scuffing_probability(contact: float, scuffing: float, *, spread: float = _SPREAD) -> float:
     """Return the probability of scuffing of a greatest contact temperature [-].
 
-    A normal distribution whose deviation is a share of the scuffing temperature in degC. Below 0.1
-    the risk is called low, above 0.3 high; the share is not checked against the source [agma_2003].
-
-    Parameters
-    ----------
-    contact, scuffing
-        Greatest temperature in the contact, and the mean at which the oil scuffs [K].
-    spread
-        Standard deviation over the scuffing temperature in degC [-].
+    Of the greatest temperature in the contact and the mean at which the oil scuffs [K], by a normal
+    distribution whose deviation over the scuffing temperature in degC is `spread`. Below 0.1 the
+    risk is called low, above 0.3 high; 0.15 is not checked against the source [agma_2003].
 
     Examples
     --------
@@ -137,5 +119,5 @@ def scuffing_probability(contact: float, scuffing: float, *, spread: float = _SP
     (0.5, 0.005)
     """
     check_positive("contact", contact, "K", "Give kelvin.")
-    mean = check_positive("scuffing - 273.15", scuffing - _ZERO, "K", "Give kelvin.")
+    mean = check_positive("scuffing - 273.15", scuffing - ZERO_CELSIUS, "K", "Give kelvin.")
     return float(ndtr((contact - scuffing) / (spread * mean)))

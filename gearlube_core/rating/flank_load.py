@@ -13,17 +13,17 @@ import numpy as np
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.number import Checked, Number, Positive
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.rating.gears import Gears, StrengthRating
+from gearlube_core.rating.gears import Gears, RatedGear, StrengthRating
 from gearlube_core.rating.pairs import MM, Pair
 from gearlube_core.rating.strength import elasticity_factor
 
 _BUTTRESS = 1.3  # load at the ends of helical contact lines over that in the middle
 _BUTTRESS_WIDTH = 0.2  # over sin(beta_b), in Gamma; not checked against the source
 _SPUR_ENDS = 1.0 / 3.0  # share of the load at the ends of the path
-_Kind = Literal["mineral", "pao", "pag"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,22 +32,17 @@ class FlankOil(Checked):
 
     Parameters
     ----------
-    temperature
-        Before the mesh [K].
-    viscosity
-        Function that returns the dynamic viscosity [Pa.s] at a temperature [K].
-    viscosity_40
-        Kinematic, at 40 degC [m2/s].
-    load_stage
-        Failure load stage of the FZG test A/8.3/90 [-]; None: not known, no scuffing.
-    test_torque
-        Of its pinion [N.m]; None: 3.726 N.m times the square of the stage.
-    kind
-        "mineral"; "pao" or "pag", whose alpha is not checked against the source.
-    lubricant_factor
-        X_L of friction, 1 of mineral oil [-].
-    supply
-        X_S [-]: 1 in a bath; by a jet 1.2, submerged 0.2, not checked against the source.
+    temperature, supply
+        Before the mesh; X_S: 1 in a bath; by a jet 1.2, submerged 0.2, not checked against the
+        source.
+    viscosity, viscosity_40
+        Function that returns the dynamic viscosity [Pa.s] at a temperature [K]; the kinematic one
+        at 40 degC.
+    load_stage, test_torque
+        Failure load stage of the FZG test A/8.3/90; None: not known, no scuffing. Torque of its
+        pinion; None: 3.726 N.m times the square of the stage.
+    kind, lubricant_factor
+        "mineral"; "pao" or "pag", whose alpha is not checked against the source. X_L of friction.
 
     Examples
     --------
@@ -62,7 +57,7 @@ class FlankOil(Checked):
     viscosity_40: Annotated[float, Number("m2/s", 1e-6, 5e-3, "220 mm2/s is 2.2e-4 m2/s.")]
     load_stage: Annotated[float | None, Number("1", 1.0, 20.0, "12 is usual.")] = None
     test_torque: Annotated[float | None, Positive("N.m", "534.5 N.m is stage 12.")] = None
-    kind: _Kind = "mineral"
+    kind: Literal["mineral", "pao", "pag"] = "mineral"
     lubricant_factor: Annotated[float, Number("1", 0.3, 1.5, "1 of mineral oil.")] = 1.0
     supply: Annotated[float, Number("1", 0.1, 2.0, "1 in a bath.")] = 1.0
 
@@ -98,25 +93,13 @@ class FlankLoad(Checked):
     ----------
     pair, gears, oil
         Geometry; roughness and moduli; oil.
-    line_load
-        F_t/b without load factors [N/m].
-    load_factor
-        K_A K_gamma K_v K_H beta K_H alpha [-].
-    pinion_speed
-        [rad/s]
+    line_load, load_factor
+        F_t/b without load factors; K_A K_gamma K_v K_H beta K_H alpha.
 
     Examples
     --------
-    >>> import gearlube as gl
-    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> oil = gl.FlankOil.of(gl.Lubricant.named("fva_3"), temperature=353.15, load_stage=12)
-    >>> load = gl.FlankLoad(
-    ...     pair=pair, gears=(gear, gear), oil=oil, line_load=2e5, load_factor=1.5,
-    ...     pinion_speed=200.0,
-    ... )
-    >>> round(load.mean_friction, 3)
-    0.066
+    >>> round(FlankLoad.example().mean_friction, 3)
+    0.067
     """
 
     pair: HelicalPair
@@ -136,6 +119,16 @@ class FlankLoad(Checked):
             pair=pair, gears=gears, oil=oil, load_factor=K,
             line_load=rating.number("F_t") / pair.face_width,
             pinion_speed=rating.number("v") / pair.pinion_reference_radius,
+        )  # fmt: skip
+
+    @classmethod
+    def example(cls) -> FlankLoad:
+        """Return shipped spur gears in FVA 3 at 90 degC under 300 N/mm, for a first try."""
+        gear = RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+        return cls(
+            pair=HelicalGearFile.named("he_2007").helical_pair(), gears=(gear, gear),
+            oil=FlankOil.of(Lubricant.named("fva_3"), temperature=363.0, load_stage=12.0),
+            line_load=2e5, load_factor=1.5, pinion_speed=200.0,
         )  # fmt: skip
 
     def __post_init__(self) -> None:

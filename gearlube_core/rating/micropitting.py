@@ -10,14 +10,14 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive
+from gearlube_core.rating.contact_temperature import STEEL_EFFUSIVITY
 from gearlube_core.rating.flank_load import FlankLoad
 from gearlube_core.rating.pairs import MM, MPA, said
 
-Viscosity = Callable[[float], float]  # eta [Pa.s] at a temperature [K]
+_Number = Array | float
 _T_38 = 311.0  # K
 # alpha at 38 degC [1/Pa] over a power of eta in Pa.s; not checked but of mineral oil
 _ALPHA = {"mineral": (2.657e-8, 0.1348), "pao": (1.466e-8, 0.0507), "pag": (1.392e-8, 0.1572)}
-_EFFUSIVITY = 13_780.0  # W s^0.5/(m2 K)
 _MARGIN = 1.4  # of the test gear's specific film
 _MODULUS = 226.374e9  # E_r of steel [Pa]
 # point A of the test gears C-GF at 2250 1/min: radius [m], speeds [m/s], line load over the torque
@@ -35,48 +35,41 @@ class FilmPoints(NamedTuple):
 
 
 def specific_film(
-    radius: Array | float,
-    pressure: Array | float,
-    speeds: tuple[Array | float, Array | float],
+    radius: _Number,
+    pressure: _Number,
+    speeds: tuple[_Number, _Number],
     *,
-    viscosity: Viscosity,
-    bulk: Array | float,
-    friction: Array | float,
+    viscosity: Callable[[float], float],
+    bulk: _Number,
+    friction: _Number,
     roughness: float,
     oil: str = "mineral",
-    contact: Array | float | None = None,
+    contact: _Number | None = None,
     modulus: float = _MODULUS,
 ) -> FilmPoints:
     """Return film and specific film at points of a flank.
 
     h = 1600 rho G^0.6 U^0.7 W^-0.13 S^0.22,  lambda = h/R_a
 
+    Compare only with a permissible value of the same film formula. Source: [iso_6336_22].
+
     Parameters
     ----------
-    radius
-        rho_n, relative radius of curvature normal to the flank [m].
-    pressure
-        Hertz pressure with all load factors [Pa]: of method B, or solved over the flank, A.
+    radius, pressure
+        rho_n, relative radius of curvature normal to the flank [m]. Hertz pressure with all load
+        factors [Pa]: of method B, or solved over the flank, A.
     speeds
         Of pinion and gear along the profile [m/s].
     viscosity
         eta [Pa.s] of a temperature [K], such as `lambda T: oil.state(T).eta0` of a `Lubricant`.
-    bulk
-        T_M of the teeth [K].
-    friction
-        mu_m [-].
-    roughness
-        R_a, mean of both flanks [m].
+    bulk, contact
+        T_M of the teeth, T_B in the contact [K]; None: by the flash formula of the standard.
+    friction, roughness
+        mu_m [-]; R_a, mean of both flanks [m].
     oil
         "mineral"; "pao", "pag", whose alpha is not checked against the source.
-    contact
-        T_B in the contact [K]; None: by the flash formula of the standard.
     modulus
         E_r [Pa].
-
-    Notes
-    -----
-    Source: [iso_6336_22]. Compare only with a permissible value of the same film formula.
 
     Examples
     --------
@@ -91,12 +84,10 @@ def specific_film(
     rho, p = np.asarray(radius, dtype=float), np.asarray(pressure, dtype=float)
     u1, u2 = (np.asarray(one, dtype=float) for one in speeds)
     T_M = np.asarray(bulk, dtype=float)
-    if contact is None:
-        takes = _EFFUSIVITY * (np.sqrt(u1) + np.sqrt(u2))
-        heat = np.asarray(friction) * p * np.abs(u1 - u2) / takes
-        T_B = T_M + 0.5 * math.sqrt(math.pi) * heat * np.sqrt(8.0 * rho * p / modulus)
-    else:
-        T_B = np.asarray(contact, dtype=float)
+    takes = STEEL_EFFUSIVITY * (np.sqrt(u1) + np.sqrt(u2))
+    heat = np.asarray(friction) * p * np.abs(u1 - u2) / takes
+    rise = 0.5 * math.sqrt(math.pi) * heat * np.sqrt(8.0 * rho * p / modulus)
+    T_B = T_M + rise if contact is None else np.asarray(contact, dtype=float)
     factor, power = _ALPHA[oil]
     eta = np.vectorize(viscosity, otypes=[float])
     alpha_38 = factor * eta(_T_38) ** power
@@ -133,6 +124,8 @@ def permissible_film(
 ) -> float:
     """Return lambda_GFP = 1.4 W_W lambda_GFT of the C-GF test gear at its failure stage [-].
 
+    For a film by another law, solve `TEST_POINT` with that law. Source: [iso_6336_22].
+
     Parameters
     ----------
     test_torque
@@ -144,10 +137,6 @@ def permissible_film(
     **film
         viscosity and oil of `specific_film`.
 
-    Notes
-    -----
-    Source: [iso_6336_22]. For a film by another law, solve `TEST_POINT` with that law.
-
     Examples
     --------
     >>> def eta(temperature):
@@ -158,10 +147,8 @@ def permissible_film(
     radius, speeds, load, roughness = TEST_POINT
     line_load = load * check_positive("test_torque", test_torque, "N.m", "265.1 N.m is stage 10.")
     pressure = math.sqrt(_MODULUS * line_load / (2.0 * math.pi * radius))
-    found = specific_film(
-        radius, pressure, speeds, bulk=bulk, friction=0.0, contact=contact, roughness=roughness,
-        **film,
-    )  # fmt: skip
+    given = {"bulk": bulk, "contact": contact, "friction": 0.0, "roughness": roughness, **film}
+    found = specific_film(radius, pressure, speeds, **given)
     return _MARGIN * material * float(found.specific)
 
 
@@ -177,30 +164,19 @@ def micropitting_rating(
 
     p = Z_E (F_t X/(b rho_n cos(alpha_t)))^(1/2) (K_A K_gamma K_v K_H beta K_H alpha)^(1/2)
 
+    Load of flanks without modification. Source: [iso_6336_22].
+
     Parameters
     ----------
-    load
-        Pair, oil, load and speed.
     permissible
         lambda_GFP, see `permissible_film` [-].
     bulk, friction, contact
         As of `specific_film`; None: by the standard's formulas.
 
-    Notes
-    -----
-    Load of flanks without modification. Source: [iso_6336_22].
-
     Examples
     --------
     >>> import gearlube as gl
-    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> oil = gl.FlankOil.of(gl.Lubricant.named("fva_3"), temperature=363.0)
-    >>> load = gl.FlankLoad(
-    ...     pair=pair, gears=(gear, gear), oil=oil, line_load=2e5, load_factor=1.5,
-    ...     pinion_speed=200.0,
-    ... )
-    >>> round(gl.micropitting_rating(load, permissible=0.3).safety, 1)
+    >>> round(gl.micropitting_rating(gl.FlankLoad.example(), permissible=0.3).safety, 1)
     0.4
     """
     check_positive("permissible", permissible, "", "0.1 to 0.5 is usual.")
@@ -210,17 +186,13 @@ def micropitting_rating(
     rho = r1 * r2 / (r1 + r2) / cos_b
     pressure = load.w * path.share / (rho * math.cos(pair.transverse_pressure_angle))
     points = specific_film(
-        rho / MM,
-        np.sqrt(load.E_r / (2.0 * math.pi) * pressure) / MPA,
-        (turn * r1, turn / pair.ratio * r2),
-        viscosity=load.oil.viscosity,
+        rho / MM, np.sqrt(load.E_r / (2.0 * math.pi) * pressure) / MPA,
+        (turn * r1, turn / pair.ratio * r2), viscosity=load.oil.viscosity,
         bulk=load.bulk_temperature if bulk is None else bulk,
         friction=load.mean_friction if friction is None else friction,
         roughness=0.5e-6 * sum(g.R_a for g in load.gears),
-        oil=load.oil.kind,
-        contact=contact,
-        modulus=load.E_r / MPA,
-    )
+        oil=load.oil.kind, contact=contact, modulus=load.E_r / MPA,
+    )  # fmt: skip
     helix, angle = math.degrees(pair.helix_angle), math.degrees(pair.normal_pressure_angle)
     m, e = MM * pair.normal_module, pair.transverse_contact_ratio
     e_n = e / cos_b**2

@@ -9,13 +9,13 @@ import numpy as np
 
 from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
+from gearlube_core.rating.contact_temperature import STEEL_EFFUSIVITY
 from gearlube_core.rating.flank_load import FlankLoad
 from gearlube_core.rating.pairs import MM, UM, said
+from gearlube_core.units import ZERO_CELSIUS
 
-_ZERO = 273.15  # K
 _FRICTION = "the friction of this method is a formula from memory; give friction"
 _TORQUE = "the torque of the load stage, 3.726 S^2 N.m, is from memory; give test_torque"
-_EFFUSIVITY = 13.78  # B_M of steel [N/(mm s^0.5 K)]
 
 
 class ScuffingRating(NamedTuple):
@@ -32,22 +32,22 @@ class ScuffingRating(NamedTuple):
     standard: str
 
 
-def _common(load: FlankLoad) -> dict[str, float]:
-    """Return what both methods have in common: X_M, X_ab, and v^0.5/a^0.25; N, mm, MPa."""
-    if load.oil.load_stage is None:
+def _common(load: FlankLoad) -> tuple[dict[str, float], float]:
+    """Return X_M, X_ab, and v^0.5/a^0.25 in N, mm, MPa, and the load stage."""
+    stage, pair = load.oil.load_stage, load.pair
+    if stage is None:
         raise ParameterError(
             "load_stage of the oil must be given for scuffing, got none. Take the failure load "
             "stage of the FZG test A/8.3/90 from its data sheet."
         )
-    pair = load.pair
     alpha_t, alpha_w = pair.transverse_pressure_angle, pair.working_pressure_angle
     angle = math.sin(alpha_w) * math.cos(pair.normal_pressure_angle)
     angle = (angle * math.cos(pair.base_helix_angle)) ** 0.25
     return {
-        "X_M": (1e6 * load.E_r) ** 0.25 / _EFFUSIVITY,
+        "X_M": (1e6 * load.E_r) ** 0.25 / (STEEL_EFFUSIVITY / MM),
         "X_ab": 1.22 * angle / math.sqrt(math.cos(alpha_t) * math.cos(alpha_w)),
         "speed": math.sqrt(load.v) / (MM * pair.centre_distance) ** 0.25,
-    }
+    }, stage
 
 
 def _outside(load: FlankLoad, *more: tuple[bool, str]) -> tuple[str, ...]:
@@ -61,11 +61,7 @@ def _outside(load: FlankLoad, *more: tuple[bool, str]) -> tuple[str, ...]:
 
 
 def flash_rating(
-    load: FlankLoad,
-    *,
-    friction: float | None = None,
-    structure: float = 1.0,
-    paths: float = 1.0,
+    load: FlankLoad, *, friction: float | None = None, structure: float = 1.0, paths: float = 1.0
 ) -> ScuffingRating:
     """Return the safety against scuffing by the greatest flash temperature, ISO/TS 6336-20.
 
@@ -73,10 +69,11 @@ def flash_rating(
     theta_M = theta_oil + 0.47 X_S X_mp mean(theta_fl),  theta_B = theta_M + max(theta_fl)
     theta_S = 80 + (0.85 + 1.4 X_W) X_L S^2,  X_L = eta^-0.05
 
+    ParameterError where the oil has no load stage. One worked example, met within 6 %.
+    Source: [iso_6336_20].
+
     Parameters
     ----------
-    load
-        Pair, oil, load and speed.
     friction
         mu_m [-]; None: 0.06 (w/(v_g rho))^0.2 X_L X_R, whose X_R is not checked against the source.
     structure
@@ -85,29 +82,13 @@ def flash_rating(
     paths
         X_mp, of several meshes [-].
 
-    Raises
-    ------
-    ParameterError
-        The oil has no load stage.
-
-    Notes
-    -----
-    One worked example, met within 6 %. Source: [iso_6336_20].
-
     Examples
     --------
     >>> import gearlube as gl
-    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> oil = gl.FlankOil.of(gl.Lubricant.named("fva_3"), temperature=363.0, load_stage=12)
-    >>> load = gl.FlankLoad(
-    ...     pair=pair, gears=(gear, gear), oil=oil, line_load=2e5, load_factor=1.5,
-    ...     pinion_speed=200.0,
-    ... )
-    >>> round(gl.flash_rating(load).safety, 1)
+    >>> round(gl.flash_rating(gl.FlankLoad.example()).safety, 1)
     3.4
     """
-    c, path, u, oil = _common(load), load.path, load.pair.ratio, load.oil
+    (c, stage), path, u, oil = _common(load), load.path, load.pair.ratio, load.oil
     X_L = (1e3 * oil.viscosity(oil.temperature)) ** -0.05
     given = friction is not None
     if friction is None:
@@ -119,7 +100,7 @@ def flash_rating(
     flash = friction * c["X_M"] * X_G * (path.share * load.w) ** 0.75 * c["speed"]
     mean, most = float(np.trapezoid(flash, g) / (g[-1] - g[0])), float(flash.max())
     bulk = oil.temperature + 0.47 * oil.supply * paths * mean
-    limit = 80.0 + (0.85 + 1.4 * structure) * X_L * (oil.load_stage or 0.0) ** 2 + _ZERO
+    limit = 80.0 + (0.85 + 1.4 * structure) * X_L * stage**2 + ZERO_CELSIUS
     return ScuffingRating(
         temperature=bulk + most,
         limit=limit,
@@ -147,63 +128,45 @@ def integral_rating(
     theta_int = theta_oil + (0.7 X_S + 1.5) theta_flaint
     theta_Sint = 80 + (0.23 X_L + 0.3 X_WrelT (100/nu40)^0.02) T1T
 
+    X_eps of contact ratios of a member above 1, and X_Q, are not checked against the source; the
+    flanks are run in. ParameterError where the oil has no load stage. Source: [iso_6336_21].
+
     Parameters
     ----------
-    load
-        Pair, oil, load and speed.
-    effective_relief
-        C_eff, deflection of the teeth: F_t K_A/(b c_gamma) [m].
-    tip_relief
-        C_a of the member that counts [m].
+    effective_relief, tip_relief
+        C_eff, deflection of the teeth: F_t K_A/(b c_gamma); C_a of the member that counts [m].
     pinion_drives
         Whether the pinion drives, of which the meshing factor X_Q depends.
     relative_structure
         X_WrelT [-].
 
-    Raises
-    ------
-    ParameterError
-        The oil has no load stage.
-
-    Notes
-    -----
-    X_eps of contact ratios of a member above 1, and X_Q, are not checked against the source; the
-    flanks are run in. Source: [iso_6336_21].
-
     Examples
     --------
     >>> import gearlube as gl
-    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> oil = gl.FlankOil.of(gl.Lubricant.named("fva_3"), temperature=363.0, load_stage=12)
-    >>> load = gl.FlankLoad(
-    ...     pair=pair, gears=(gear, gear), oil=oil, line_load=2e5, load_factor=1.5,
-    ...     pinion_speed=200.0,
-    ... )
-    >>> round(gl.integral_rating(load, effective_relief=1e-5).safety, 1)
+    >>> round(gl.integral_rating(gl.FlankLoad.example(), effective_relief=1e-5).safety, 1)
     2.7
     """
     check_positive("effective_relief", effective_relief, "m", "45 um is 4.5e-5 m.")
-    c, path, u, oil = _common(load), load.path, load.pair.ratio, load.oil
+    (c, stage), path, u, oil = _common(load), load.path, load.pair.ratio, load.oil
     first, second = float(path.pinion_radius[-1]), float(path.gear_radius[-1])
     X_BE = 0.51 * math.sqrt(u + 1.0) * (math.sqrt(first) - math.sqrt(second / u))
     X_BE /= (first * second) ** 0.25
     e1, e2 = load.tip_contact_ratios
-    X_eps = contact_ratio_factor(e1, e2)
+    X_eps = _contact_ratio_factor(e1, e2)
     X_Q = min(max(1.4 - 4.0 / 15.0 * (e2 / e1 if pinion_drives else e1 / e2), 0.6), 1.0)
     r, e = min(tip_relief / effective_relief, 1.0), max(e1, e2)
     X_Ca = 1.0 + (0.06 + 0.18 * r) * e + (0.02 + 0.69 * r) * e * e
     flash = load.mean_friction * c["X_M"] * abs(X_BE) * c["X_ab"] * c["speed"]
     flash *= (load.w * load.helical_factor) ** 0.75 * X_eps / (X_Q * X_Ca)
     bulk = oil.temperature + 0.7 * oil.supply * flash
-    torque = oil.test_torque or 3.726 * (oil.load_stage or 0.0) ** 2
+    torque = oil.test_torque or 3.726 * stage**2
     X_W = relative_structure * (1e-4 / oil.viscosity_40) ** 0.02
-    limit = 80.0 + (0.23 * oil.lubricant_factor + 0.3 * X_W) * torque + _ZERO
+    limit = 80.0 + (0.23 * oil.lubricant_factor + 0.3 * X_W) * torque + ZERO_CELSIUS
     return ScuffingRating(
         temperature=bulk + 1.5 * flash,
         limit=limit,
         bulk=bulk,
-        safety=(limit - _ZERO) / (bulk + 1.5 * flash - _ZERO),
+        safety=(limit - ZERO_CELSIUS) / (bulk + 1.5 * flash - ZERO_CELSIUS),
         friction=load.mean_friction,
         gamma=math.nan,
         factors={
@@ -215,14 +178,8 @@ def integral_rating(
     )  # fmt: skip
 
 
-def contact_ratio_factor(e1: float, e2: float) -> float:
-    """Return X_eps of the tip contact ratios of pinion and gear [-]; source [iso_6336_21].
-
-    Examples
-    --------
-    >>> round(contact_ratio_factor(0.852, 0.611), 4)
-    0.2628
-    """
+def _contact_ratio_factor(e1: float, e2: float) -> float:
+    """Return X_eps of the tip contact ratios of pinion and gear [-]."""
     e = e1 + e2
     if e < 1.0:
         terms = e1 * e1 + e2 * e2
@@ -230,8 +187,7 @@ def contact_ratio_factor(e1: float, e2: float) -> float:
         terms = 0.70 * (e1 * e1 + e2 * e2) - 0.22 * e + 0.52 - 0.60 * e1 * e2
     else:
         high, low = max(e1, e2), min(e1, e2)
-        a, b, c, d, f = (
-            (0.18, 0.70, 0.82, 0.52, 0.30) if e < 2.0 else (0.44, 0.59, 0.30, 0.30, 0.15)
-        )
+        of_both = (0.18, 0.70, 0.82, 0.52, 0.30) if e < 2.0 else (0.44, 0.59, 0.30, 0.30, 0.15)
+        a, b, c, d, f = of_both
         terms = a * high * high + b * low * low + c * high - d * low - f * e1 * e2
     return terms / (2.0 * e * e1)

@@ -46,25 +46,20 @@ def duty_bins(
 
     Turns of the pinion and time are kept. The torque of a bin is the power mean over turns, which
     does the damage of its samples where their strength line has this exponent. A bin never has
-    torque of both flanks.
+    torque of both flanks. ParameterError where shapes differ, a number is not finite, a duration is
+    negative or a width not above 0.
 
     Parameters
     ----------
-    time
-        Duration of each sample [s]; shape (n,), as the next two.
-    torque, speed
-        Of the pinion [N.m], [rad/s]; torque above 0 loads the drive flank.
+    time, torque, speed
+        Duration of each sample [s]; torque [N.m], above 0 on the drive flank, and speed [rad/s] of
+        the pinion; shape (n,).
     temperature
         Of the oil [K].
     widths
         Of a bin [N.m], [rad/s], [K].
     exponent
         Of the torque in life [-].
-
-    Raises
-    ------
-    ParameterError
-        Shapes differ, a number is not finite, a duration is negative or a width not above 0.
 
     Examples
     --------
@@ -89,16 +84,17 @@ def duty_bins(
     speed = np.abs(speed)
     keys = np.floor(np.stack((torque, speed, heat), axis=1) / np.array(widths))
     _, which = np.unique(keys, axis=0, return_inverse=True)
-    which = which.ravel()
-    whole = np.bincount(which, time).astype(float)
-    turns = np.bincount(which, time * speed)
-    power = np.bincount(which, time * speed * np.abs(torque) ** exponent)
-    sign = np.where(np.bincount(which, time * torque) < 0.0, -1.0, 1.0)
-    used = whole > 0.0
-    some = np.where(used, whole, 1.0)
+
+    def summed(weights: Array) -> Array:
+        return np.bincount(which.ravel(), weights).astype(float)
+
+    whole, turns = summed(time), summed(time * speed)
+    power = summed(time * speed * np.abs(torque) ** exponent)
+    sign = np.where(summed(time * torque) < 0.0, -1.0, 1.0)
+    some = np.where(whole > 0.0, whole, 1.0)
     mean = (power / np.where(turns > 0.0, turns, 1.0)) ** (1.0 / exponent)
-    bins = DutyBins(sign * mean, turns / some, np.bincount(which, time * heat) / some, whole)
-    return DutyBins(*(one[used] for one in bins))
+    bins = DutyBins(sign * mean, turns / some, summed(time * heat) / some, whole)
+    return DutyBins(*(one[whole > 0.0] for one in bins))
 
 
 class SpectrumDamage(NamedTuple):
@@ -132,46 +128,38 @@ def spectrum_damage(
 ) -> SpectrumDamage:
     """Return the damage of each bin.
 
+    A tooth is loaded from zero at each mesh; load of both flanks on a root counts with the
+    `mean_stress` of the gear. Source: [iso_6336_6].
+
     Parameters
     ----------
-    bins
-        Of one cycle.
+    bins, repeats
+        Of one cycle; repeats of the cycle.
     rate
         Returns the rating at torque, its sign that of the flank [N.m], speed [rad/s] and
         temperature [K]; its cycles play no part.
-    ratio
-        Teeth of the gear over those of the pinion [-].
-    repeats
-        Of the cycle.
-    mates
-        Meshes of a tooth in a turn of pinion and gear.
+    ratio, mates
+        Teeth of the gear over those of the pinion [-]; meshes of a tooth in a turn of both.
     factor
         On all torques, for `torque_factor`.
-
-    Notes
-    -----
-    A tooth is loaded from zero at each mesh; load of both flanks on a root counts with the
-    `mean_stress` of the gear. Source: [iso_6336_6].
 
     Examples
     --------
     >>> import gearlube as gl
-    >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    >>> load = gl.FlankLoad.example()
     >>> def rate(torque, speed, temperature):
     ...     return gl.cylindrical_rating(
-    ...         pair, (gear, gear), gl.LoadFactors(face=1.2), pinion_torque=abs(torque),
+    ...         load.pair, load.gears, gl.LoadFactors(face=1.2), pinion_torque=abs(torque),
     ...         pinion_speed=speed, cycles=(1.0, 1.0), oil_viscosity=100e-6,
     ...     )
     >>> bins = gl.duty_bins(
     ...     np.ones(2), np.array([900.0, -90.0]), np.full(2, 200.0), 350.0, widths=(50.0, 9.0, 9.0)
     ... )
-    >>> damage = gl.spectrum_damage(bins, rate, ratio=pair.ratio, repeats=1e5)
+    >>> damage = gl.spectrum_damage(bins, rate, ratio=load.pair.ratio, repeats=1e5)
     >>> round(damage.sums()["pitting, drive"][0], 3)
     0.335
     """
-    shape = (bins.torque.size, 2)
-    found = {"contact": np.zeros(shape), "bending": np.zeros(shape)}
+    contact, bending = np.zeros((2, bins.torque.size, 2))
     turns = repeats * bins.revolutions
     outside: dict[str, None] = {}
     for n, (torque, speed, heat) in enumerate(zip(*bins[:3], strict=True)):
@@ -180,8 +168,8 @@ def spectrum_damage(
         rating = rate(factor * torque, speed, heat)
         outside.update(dict.fromkeys(rating.outside))
         for member, cycles in enumerate((turns[n] * mates[0], turns[n] * mates[1] / ratio)):
-            for name, damage in found.items():
-                line = getattr(rating, f"{name}_lines")[member]
-                stress = getattr(rating, f"{name}_stress")[member]
-                damage[n, member] = miner_sum(line, stress, cycles)
-    return SpectrumDamage(found["contact"], found["bending"], bins.torque > 0.0, tuple(outside))
+            line, stress = rating.contact_lines[member], rating.contact_stress[member]
+            contact[n, member] = miner_sum(line, stress, cycles)
+            line, stress = rating.bending_lines[member], rating.bending_stress[member]
+            bending[n, member] = miner_sum(line, stress, cycles)
+    return SpectrumDamage(contact, bending, bins.torque > 0.0, tuple(outside))

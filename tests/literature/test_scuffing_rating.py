@@ -11,7 +11,7 @@ import pytest
 import gearlube as gl
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.contact_temperature import STEEL_EFFUSIVITY
-from gearlube_core.rating.scuffing import contact_ratio_factor
+from gearlube_core.rating.scuffing import _contact_ratio_factor as contact_ratio_factor
 from tests.literature.test_iso_6336_rating import FZG_C, STAGE_3, STAGE_3_GEARS, rated_stage_3
 
 A = 2e-4  # half width of the contact [m]
