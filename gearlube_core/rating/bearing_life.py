@@ -216,19 +216,11 @@ def equivalent_load(
 
 
 def bearing_life(
-    bearing: RatedBearing,
-    *,
-    speed: float,
-    cleanliness: str | tuple[float, float],
-    load: float | None = None,
-    element_loads: Array | None = None,
-    viscosity: float | None = None,
-    film_ratio: float | None = None,
-    reliability: int = 90,
-    additives: bool = False,
-    inner_turns: bool = True,
-    end_loads: bool = False,
-) -> BearingLife:
+    bearing: RatedBearing, *, speed: float, cleanliness: str | tuple[float, float],
+    load: float | None = None, element_loads: Array | None = None,
+    viscosity: float | None = None, film_ratio: float | None = None, reliability: int = 90,
+    additives: bool = False, inner_turns: bool = True, end_loads: bool = False,
+) -> BearingLife:  # fmt: skip
     """Return basic and modified life of a bearing.
 
     Slices: L = [sum (q_ci/q_ei)^-4.5 + (q_ce/q_ee)^-4.5]^(-8/9), q_c = Q_c n^(-7/9), with the means
@@ -306,17 +298,11 @@ def bearing_life(
         a_iso = float((sums * of_slices**-law.weibull).sum() ** (-1.0 / law.weibull)) / basic
     a_1 = RELIABILITY[reliability]
     return BearingLife(
-        basic=1e6 * basic,
-        modified=1e6 * a_1 * a_iso * basic,
-        speed=speed,
+        basic=1e6 * basic, modified=1e6 * a_1 * a_iso * basic, speed=speed,
         load=bearing.dynamic_rating * basic ** (-1.0 / law.life),
-        kappa=kappa,
-        contamination=e_C,
-        a_iso=a_iso,
-        a_1=a_1,
-        outside=tuple(outside),
+        kappa=kappa, contamination=e_C, a_iso=a_iso, a_1=a_1, outside=tuple(outside),
         standard="ISO 281:2007" if element_loads is None else "ISO/TS 16281:2008",
-    )
+    )  # fmt: skip
 
 
 def _slice_sums(bearing: RatedBearing, loads: Array, inner_turns: bool, end_loads: bool) -> Array:

@@ -35,15 +35,10 @@ class ContactTemperature(NamedTuple):
 
 
 def contact_temperature(
-    x: Array,
-    heat: Array,
-    speeds: tuple[_Number, _Number],
-    bulk: tuple[_Number, _Number],
-    *,
-    half_width: _Number = 1.0,
+    x: Array, heat: Array, speeds: tuple[_Number, _Number], bulk: tuple[_Number, _Number], *,
+    half_width: _Number = 1.0, diffusivity: float = STEEL_DIFFUSIVITY,
     effusivity: tuple[float, float] = (STEEL_EFFUSIVITY, STEEL_EFFUSIVITY),
-    diffusivity: float = STEEL_DIFFUSIVITY,
-) -> ContactTemperature:
+) -> ContactTemperature:  # fmt: skip
     """Return the temperature of two surfaces that pass a band of heat, of one contact or many.
 
     T(x) = T_M + 1/(pi^(1/2) (b1 u1^(1/2) + b2 u2^(1/2))) int q(s)/(x - s)^(1/2) ds

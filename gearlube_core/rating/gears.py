@@ -77,7 +77,7 @@ class RatedGear(Checked):
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
         check_option("treatment", self.treatment, TREATMENTS)
-        if self.some_pitting and self.nitrided:
+        if self.some_pitting and self.steel == "nitrided":
             raise ParameterError(
                 f"some_pitting must be False with {self.treatment} steel: its thin layer does not "
                 "bear pits."
@@ -89,9 +89,9 @@ class RatedGear(Checked):
             )
 
     @property
-    def nitrided(self) -> bool:
-        """Whether its layer is nitrided or nitrocarburised."""
-        return self.treatment.startswith("nitr")
+    def steel(self) -> str:
+        """The treatment, where nitrocarburised counts as nitrided."""
+        return "nitrided" if self.treatment.startswith("nitr") else self.treatment
 
     @property
     def R_a(self) -> float:

@@ -21,15 +21,9 @@ _Z_KP = 1.2
 
 
 def bevel_rating(
-    mesh: BevelMesh,
-    gears: Gears,
-    factors: LoadFactors,
-    *,
-    pinion_torque: float,
-    pinion_speed: float,
-    cycles: Pair,
-    oil_viscosity: float,
-) -> StrengthRating:
+    mesh: BevelMesh, gears: Gears, factors: LoadFactors, *,
+    pinion_torque: float, pinion_speed: float, cycles: Pair, oil_viscosity: float,
+) -> StrengthRating:  # fmt: skip
     """Return stress and strength of both members at one load; arguments as `cylindrical_rating`.
 
     Source: [iso_10300_2] [iso_10300_3], edition 2023: Z_KP 1.2 in the strength, where edition 2014

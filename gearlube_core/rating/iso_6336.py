@@ -20,20 +20,11 @@ EDITIONS = ("2006", "2019")
 
 
 def cylindrical_rating(
-    pair: HelicalPair,
-    gears: tuple[RatedGear, RatedGear],
-    factors: LoadFactors,
-    *,
-    pinion_torque: float,
-    pinion_speed: float,
-    cycles: Pair,
-    oil_viscosity: float,
-    tip_relief: float | None = None,
-    blank_factor: float = 1.0,
-    modified: float = 1.2,
-    accurate: bool = False,
-    edition: str = "2006",
-) -> StrengthRating:
+    pair: HelicalPair, gears: Gears, factors: LoadFactors, *,
+    pinion_torque: float, pinion_speed: float, cycles: Pair, oil_viscosity: float,
+    tip_relief: float | None = None, blank_factor: float = 1.0,
+    modified: float = 1.2, accurate: bool = False, edition: str = "2006",
+) -> StrengthRating:  # fmt: skip
     """Return stress and strength of both members at one load.
 
     Source: [iso_6336_1] [iso_6336_2] [iso_6336_3], checked with [iso_tr_6336_30 example 1].
@@ -50,18 +41,16 @@ def cylindrical_rating(
         Of load on a tooth of pinion and gear [-].
     oil_viscosity
         At 40 degC [m2/s].
-    tip_relief
-        C_a of both members together [m]; None: what running-in takes off.
-    blank_factor
-        C_R of the gear bodies [-], see `iso_stiffness`.
+    tip_relief, blank_factor
+        C_a of both members together [m], None: what running-in takes off; C_R of the gear bodies
+        [-], see `iso_stiffness`.
     modified
         f_ZCa of edition 2019 [-]: 1 for flanks modified by a solved distribution, 1.07 otherwise
         modified, 1.2 unmodified.
     accurate
         Whether quality 4 or better lets deep teeth share the load: Y_DT below 1.
     edition
-        "2006", or "2019", of which Z_B, Y_beta and f_eps are not checked against the source;
-        neither is Y_DT.
+        "2006" or "2019"; its Z_B, Y_beta, f_eps, and Y_DT are not checked against the source.
 
     Examples
     --------
@@ -91,6 +80,7 @@ def cylindrical_rating(
     Z_E, per_area = elasticity_factor(gears), F_t * (u + 1.0) / (d1 * b * u)
     Y, f_eps = _bending_factors(pair, accurate, edition)
     K = _load_factors(pair, gears, factors, iso, w, pinion_speed, relief, Z["Z_eps"])
+    rims = both(lambda g: g.rim_ratio, gears)
     bases = pair.pinion_base_radius, pair.gear_base_radius
     curvature = sum(1.0 / math.tan(pair.working_pressure_angle) / r for r in bases)
     return strength_rating(
@@ -110,7 +100,7 @@ def cylindrical_rating(
         ) + iso.outside,
         standard=f"ISO 6336-1, -2, -3:{edition}, method B",
         Z_BD=Z_BD,
-        Y_B=both(_rim_factor, gears),
+        Y_B=both(lambda one: 1.0 if one >= 1.2 else 1.6 * math.log(2.242 / one), rims),
     )  # fmt: skip
 
 
@@ -174,19 +164,13 @@ def _bending_factors(
     """Return Y_beta and Y_DT, and f_eps of Y_F."""
     e_b = min(pair.overlap_ratio, 1.0)
     e_n = pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2
-    Y_beta = 1.0 - e_b * min(math.degrees(pair.helix_angle), 30.0) / 120.0
-    f_eps = 1.0
+    Y_beta, f_eps = 1.0 - e_b * min(math.degrees(pair.helix_angle), 30.0) / 120.0, 1.0
     if edition == "2019":
         Y_beta /= math.cos(pair.helix_angle) ** 3
-        f_eps = math.sqrt(1.0 - e_b + e_b / e_n)
-        if e_b == 0.0 and e_n >= 2.0:
-            f_eps = 0.7
+        deep_spur = e_b == 0.0 and e_n >= 2.0
+        f_eps = 0.7 if deep_spur else math.sqrt(1.0 - e_b + e_b / e_n)
     Y_DT = min(max(2.366 - 0.666 * e_n, 0.7), 1.0) if accurate and e_n > 2.05 else 1.0
     return {"Y_beta": Y_beta, "Y_DT": Y_DT}, f_eps
-
-
-def _rim_factor(gear: RatedGear) -> float:
-    return 1.0 if gear.rim_ratio >= 1.2 else 1.6 * math.log(2.242 / gear.rim_ratio)
 
 
 def _tooth_form(pair: HelicalPair, gear: RatedGear, member: int, f_eps: float) -> ToothForm:

@@ -83,16 +83,10 @@ def transverse_factor(contact_ratio: float, X: float) -> float:
 
 
 def face_load_factor(
-    line_load: float,
-    face_width: float,
-    pinion_diameter: float,
-    stiffness: float,
-    *,
-    misalignment: float,
-    bending: float = 0.0,
-    correction: Pair = (1.0, 1.0),
+    line_load: float, face_width: float, pinion_diameter: float, stiffness: float, *,
+    misalignment: float, bending: float = 0.0, correction: Pair = (1.0, 1.0),
     contact_limit: float | None = None,
-) -> float:
+) -> float:  # fmt: skip
     """Return K_H beta of a pinion between bearings, method C [-]; a solved one is better.
 
     f_sh = (F_m/b) 0.023 (|1 + K' l s/d^2 (d/d_sh)^4 - 0.3| + 0.3) (b/d)^2
@@ -105,10 +99,9 @@ def face_load_factor(
         F_m/b = F_t K_A K_gamma K_v/b [N/m], b [m], d [m].
     stiffness, misalignment
         c_gamma beta [N/m2], see `iso_stiffness`; f_ma, by manufacture [m].
-    bending
-        K' l s/d^2 (d/d_sh)^4 of the pinion's place between its bearings [-], with its sign.
-    correction
-        B1, B2 of helix modifications [-].
+    bending, correction
+        K' l s/d^2 (d/d_sh)^4 of the pinion's place between its bearings [-], with its sign; B1, B2
+        of helix modifications [-].
     contact_limit
         sigma_H lim of a through-hardened pair [Pa]; None: hard flanks, of which 15 % run in, at
         most 6 um.
@@ -123,9 +116,8 @@ def face_load_factor(
     w, c = 1e-3 * line_load, 1e-9 * stiffness
     bend = (abs(0.7 + bending) + 0.3) * (face_width / pinion_diameter) ** 2
     wide = abs(1.33 * correction[0] * 0.023 * w * bend + correction[1] * UM * misalignment)
-    if contact_limit is None:
-        left = wide - min(0.15 * wide, 6.0)
-    else:
+    left = wide - min(0.15 * wide, 6.0)
+    if contact_limit is not None:
         left = wide * (1.0 - min(320.0 / (MPA * contact_limit), 1.0))
     K = 1.0 + 0.5 * left * c / w
     return K if K <= 2.0 else math.sqrt(2.0 * left * c / w)

@@ -35,18 +35,10 @@ class FilmPoints(NamedTuple):
 
 
 def specific_film(
-    radius: _Number,
-    pressure: _Number,
-    speeds: tuple[_Number, _Number],
-    *,
-    viscosity: Callable[[float], float],
-    bulk: _Number,
-    friction: _Number,
-    roughness: float,
-    oil: str = "mineral",
-    contact: _Number | None = None,
-    modulus: float = _MODULUS,
-) -> FilmPoints:
+    radius: _Number, pressure: _Number, speeds: tuple[_Number, _Number], *,
+    viscosity: Callable[[float], float], bulk: _Number, friction: _Number, roughness: float,
+    oil: str = "mineral", contact: _Number | None = None, modulus: float = _MODULUS,
+) -> FilmPoints:  # fmt: skip
     """Return film and specific film at points of a flank.
 
     h = 1600 rho G^0.6 U^0.7 W^-0.13 S^0.22,  lambda = h/R_a
@@ -153,13 +145,9 @@ def permissible_film(
 
 
 def micropitting_rating(
-    load: FlankLoad,
-    *,
-    permissible: float,
-    bulk: float | None = None,
-    friction: float | None = None,
-    contact: float | None = None,
-) -> MicropittingRating:
+    load: FlankLoad, *, permissible: float,
+    bulk: float | None = None, friction: float | None = None, contact: float | None = None,
+) -> MicropittingRating:  # fmt: skip
     """Return the specific film along the path of contact by method B, and its safety.
 
     p = Z_E (F_t X/(b rho_n cos(alpha_t)))^(1/2) (K_A K_gamma K_v K_H beta K_H alpha)^(1/2)
@@ -204,6 +192,5 @@ def micropitting_rating(
         (e_n < 2.5, f"virtual contact ratio below 2.5, got {e_n:.2f}"),
         (e <= 2.0 or pair.overlap_ratio >= 1.0, f"spur contact ratio up to 2, got {e:.2f}"),
     )
-    return MicropittingRating(
-        path.gamma, points, permissible, outside, "ISO/TS 6336-22:2018, method B"
-    )
+    standard = "ISO/TS 6336-22:2018, method B"
+    return MicropittingRating(path.gamma, points, permissible, outside, standard)

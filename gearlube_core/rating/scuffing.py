@@ -102,26 +102,19 @@ def flash_rating(
     bulk = oil.temperature + 0.47 * oil.supply * paths * mean
     limit = 80.0 + (0.85 + 1.4 * structure) * X_L * stage**2 + ZERO_CELSIUS
     return ScuffingRating(
-        temperature=bulk + most,
-        limit=limit,
-        bulk=bulk,
+        temperature=bulk + most, limit=limit, bulk=bulk,
         safety=(limit - oil.temperature) / (bulk + most - oil.temperature),
-        friction=friction,
-        gamma=float(g[flash.argmax()]),
+        friction=friction, gamma=float(g[flash.argmax()]),
         factors={**c, "X_L": X_L, "theta_fl": most, "theta_flm": mean},
         outside=_outside(load, (given, _FRICTION)),
         standard="ISO/TS 6336-20:2017, method B",
-    )
+    )  # fmt: skip
 
 
 def integral_rating(
-    load: FlankLoad,
-    *,
-    effective_relief: float,
-    tip_relief: float = 0.0,
-    pinion_drives: bool = True,
-    relative_structure: float = 1.0,
-) -> ScuffingRating:
+    load: FlankLoad, *, effective_relief: float, tip_relief: float = 0.0,
+    pinion_drives: bool = True, relative_structure: float = 1.0,
+) -> ScuffingRating:  # fmt: skip
     """Return the safety against scuffing by the integral temperature, ISO/TS 6336-21.
 
     theta_flaint = mu X_M X_BE X_ab (K_B w)^0.75 v^0.5/a^0.25 X_eps/(X_Q X_Ca)
@@ -163,12 +156,9 @@ def integral_rating(
     X_W = relative_structure * (1e-4 / oil.viscosity_40) ** 0.02
     limit = 80.0 + (0.23 * oil.lubricant_factor + 0.3 * X_W) * torque + ZERO_CELSIUS
     return ScuffingRating(
-        temperature=bulk + 1.5 * flash,
-        limit=limit,
-        bulk=bulk,
+        temperature=bulk + 1.5 * flash, limit=limit, bulk=bulk,
         safety=(limit - ZERO_CELSIUS) / (bulk + 1.5 * flash - ZERO_CELSIUS),
-        friction=load.mean_friction,
-        gamma=math.nan,
+        friction=load.mean_friction, gamma=math.nan,
         factors={
             **c, "X_R": load.roughness_factor, "K_Bg": load.helical_factor, "X_BE": X_BE,
             "X_eps": X_eps, "X_Q": X_Q, "X_Ca": X_Ca, "theta_flaint": flash,

@@ -34,14 +34,9 @@ class DutyBins(NamedTuple):
 
 
 def duty_bins(
-    time: Array,
-    torque: Array,
-    speed: Array,
-    temperature: Array | float,
-    *,
-    widths: tuple[float, float, float],
-    exponent: float = PITTING_EXPONENT,
-) -> DutyBins:
+    time: Array, torque: Array, speed: Array, temperature: Array | float, *,
+    widths: tuple[float, float, float], exponent: float = PITTING_EXPONENT,
+) -> DutyBins:  # fmt: skip
     """Return the bins of a cycle that have time in them.
 
     Turns of the pinion and time are kept. The torque of a bin is the power mean over turns, which
@@ -118,14 +113,9 @@ class SpectrumDamage(NamedTuple):
 
 
 def spectrum_damage(
-    bins: DutyBins,
-    rate: Rate,
-    *,
-    ratio: float,
-    repeats: float = 1.0,
-    mates: tuple[int, int] = (1, 1),
-    factor: float = 1.0,
-) -> SpectrumDamage:
+    bins: DutyBins, rate: Rate, *, ratio: float, repeats: float = 1.0,
+    mates: tuple[int, int] = (1, 1), factor: float = 1.0,
+) -> SpectrumDamage:  # fmt: skip
     """Return the damage of each bin.
 
     A tooth is loaded from zero at each mesh; load of both flanks on a root counts with the

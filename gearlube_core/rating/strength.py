@@ -62,10 +62,8 @@ def _work_hardening(gears: Gears, radius: float, film: float) -> tuple[Pair, tup
     which = soft.index(True)
     soft_one, hard = gears[which], gears[1 - which]
     if soft_one.brinell is None:
-        return (1.0, 1.0), (
-            "brinell of the through-hardened gear is needed for the work hardening factor, got "
-            "none: Z_W is 1",
-        )
+        needed = "brinell of the through-hardened gear is needed for the work hardening factor"
+        return (1.0, 1.0), (f"{needed}, got none: Z_W is 1",)
     R_z = UM * hard.flank_roughness
     R_zH = R_z * (10.0 / radius) ** 0.33 * (hard.flank_roughness / soft_one.flank_roughness) ** 0.66
     R_zH = min(max(R_zH / (film / 1500.0) ** 0.33, 3.0), 16.0)
@@ -87,17 +85,9 @@ class ToothForm(NamedTuple):
 
 
 def tooth_form(
-    z: float,
-    alpha: float,
-    rho: float,
-    depth: float,
-    shift: float,
-    *,
-    addendum: float,
-    thickness: float = 0.0,
-    left: float = 0.0,
-    contact_ratio: float = 1.0,
-) -> ToothForm:
+    z: float, alpha: float, rho: float, depth: float, shift: float, *, addendum: float,
+    thickness: float = 0.0, left: float = 0.0, contact_ratio: float = 1.0,
+) -> ToothForm:  # fmt: skip
     """Return the form of a spur tooth in the normal section; lengths in normal modules.
 
     Source: [iso_6336_3], [iso_10300_3]. ParameterError where the root has no tangent at 30 degrees.
@@ -141,19 +131,15 @@ def tooth_form(
     return ToothForm(Y_F, Y_S, q_s, s_Fn, h, rho_F)
 
 
-def _steel(gear: RatedGear) -> str:
-    return "nitrided" if gear.nitrided else gear.treatment
-
-
 def _root_factors(gear: RatedGear, q_s: float, module: float) -> dict[str, float]:
     """Return the factors of sigma_FG [-] of the notch parameter and the module [mm].
 
     All count at any number of cycles, on the safe side where they are below 1; [iso_6336_3].
     """
-    layer = _LAYERS.get(_steel(gear), _HARD_LAYER)
+    layer = _LAYERS.get(gear.steel, _HARD_LAYER)
     rho = layer if gear.slip_layer is None else MM * gear.slip_layer
     notch = (1.0 + math.sqrt(0.2 * rho * (1.0 + 2.0 * q_s))) / (1.0 + math.sqrt(1.2 * rho))
-    most, less, power = _ROUGH_NITRIDED if gear.nitrided else _ROUGH
+    most, less, power = _ROUGH_NITRIDED if gear.steel == "nitrided" else _ROUGH
     rough = most - less * (min(max(UM * gear.root_roughness, 1.0), 40.0) + 1.0) ** power
     most, slope, least = _SIZE.get(gear.treatment, _HARD_SIZE)
     size = min(max(most - slope * module, least), 1.0)
@@ -166,21 +152,11 @@ def _bending_line(gear: RatedGear, factors: Mapping[str, float]) -> Line:
 
 
 def strength_rating(
-    gears: Gears,
-    cycles: Pair,
-    K: Mapping[str, float],
-    forms: tuple[ToothForm, ToothForm],
-    *,
-    sigma_H0: float,
-    sigma_F: float,
-    module: float,
-    film: tuple[float, float, float, float],
-    found: Factors,
-    outside: tuple[str, ...],
-    standard: str,
-    Z_BD: Pair = (1.0, 1.0),
-    Y_B: Pair = (1.0, 1.0),
-) -> StrengthRating:
+    gears: Gears, cycles: Pair, K: Mapping[str, float], forms: tuple[ToothForm, ToothForm], *,
+    sigma_H0: float, sigma_F: float, module: float, film: tuple[float, float, float, float],
+    found: Factors, outside: tuple[str, ...], standard: str,
+    Z_BD: Pair = (1.0, 1.0), Y_B: Pair = (1.0, 1.0),
+) -> StrengthRating:  # fmt: skip
     """Return the rating of nominal stresses [MPa] with load factors.
 
     sigma_F is F/(b m_n) with the Y factors of both members. `film` is the viscosity at 40 degC
@@ -195,7 +171,7 @@ def strength_rating(
     roots = both(lambda g, form: _root_factors(g, form.q_s, module), gears, forms)
     first, second = (form._asdict() | root for form, root in zip(forms, roots, strict=True))
     R_z = both(lambda g: UM * g.root_roughness, gears)
-    from_memory = [g.slip_layer is None and _steel(g) in _LAYERS for g in gears]
+    from_memory = [g.slip_layer is None and g.steel in _LAYERS for g in gears]
     notched = said(
         *(
             (1.0 <= f.q_s < 8.0, f"notch parameter q_s within 1 to 8, got {f.q_s:.2f}")
