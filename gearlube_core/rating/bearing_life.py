@@ -13,6 +13,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import Checked, Number, Positive
+from gearlube_core.units import rads_to_rpm
 
 # Cleanliness classes of ISO 4406 for oil with a filter in its circuit, for a bath without one, and
 # of grease: A, B of e_C. Those of oil are not checked against the source.
@@ -40,8 +41,8 @@ class _Law(NamedTuple):
     """What balls and rollers differ in."""
 
     life: float  # exponent p of C/P
-    turning: float  # exponent of the mean load of elements on a turning race
-    weibull: float  # slope e; on a standing race the exponent is `turning` times e
+    exponents: tuple[float, float]  # of the mean load of elements on a standing and a turning race
+    weibull: float  # slope e
     shares: tuple[float, float]  # of F/(Z cos a) in a half loaded bearing, inner and outer race
     rows: float  # exponent of the number of rows
     race: tuple[float, float, float]  # factor and exponents of the ratio of the races
@@ -49,10 +50,6 @@ class _Law(NamedTuple):
     a_iso: tuple[float, float, float, float]  # its constant and exponents
     thrust: float  # by which C_u/P counts less in thrust bearings; not checked with the source
     fatigue: tuple[float, float]  # C_0/C_u, and exponent of large bearings
-
-    def exponent(self, turns: bool) -> float:
-        """Return the exponent of the mean load of a race [-]."""
-        return self.turning if turns else self.turning * self.weibull
 
     def modification(self, kappa: float, ratio: Array, most: float) -> Array:
         """Return a_ISO of e_C C_u/P [-]."""
@@ -64,11 +61,11 @@ class _Law(NamedTuple):
 
 
 _BALL = _Law(
-    3.0, 3.0, 10.0 / 9.0, (0.407, 0.389), 0.7, (1.044, 1.72, 0.41),
+    3.0, (10.0 / 3.0, 3.0), 10.0 / 9.0, (0.407, 0.389), 0.7, (1.044, 1.72, 0.41),
     (2.2649, 1.9987, 1.9987), (2.5671, 0.83, 1.0 / 3.0, -9.3), 3.0, (22.0, 0.5),
 )  # fmt: skip
 _ROLLER = _Law(
-    10.0 / 3.0, 4.0, 9.0 / 8.0, (0.378, 0.364), 7.0 / 9.0, (1.038, 143.0 / 108.0, 0.0),
+    10.0 / 3.0, (4.5, 4.0), 9.0 / 8.0, (0.378, 0.364), 7.0 / 9.0, (1.038, 143.0 / 108.0, 0.0),
     (1.3993, 1.2348, 1.2348), (1.5859, 1.0, 0.4, -9.185), 2.5, (8.2, 0.3),
 )  # fmt: skip
 
@@ -140,7 +137,7 @@ class RatedBearing(Checked):
         factor, power, groove = law.race
         ratio = factor * ((1.0 - gamma) / (1.0 + gamma)) ** power
         ratio *= (inner / outer * (2.0 * outer - 1.0) / (2.0 * inner - 1.0)) ** groove
-        w = law.exponent(turns=False)
+        w = law.exponents[0]
         one = self.dynamic_rating / (self.elements * cos) / self.rows**law.rows
         return (
             one / law.shares[0] * (1.0 + ratio**w) ** (1.0 / w),
@@ -169,23 +166,12 @@ class BearingLife(NamedTuple):
         return self.basic / per_hour, self.modified / per_hour
 
 
-def reference_viscosity(speed: float, pitch_diameter: float) -> float:
-    """Return nu_1 [m2/s] of a speed [rad/s] and a pitch diameter [m]; source [iso_281]."""
-    n, D = speed * 30.0 / math.pi, 1e3 * pitch_diameter
-    return 1e-6 * (45000.0 * n**-0.83 if n < 1000.0 else 4500.0 * n**-0.5) / math.sqrt(D)
-
-
-def contamination_factor(
-    cleanliness: str | tuple[float, float], kappa: float, pitch_diameter: float
-) -> float:
-    """Return e_C [-] = min(1, A kappa^0.68 D^0.55) (1 - B/D^(1/3)) of a pitch diameter [m].
-
-    D is in mm; A and B are those of a class of `CLEANLINESS`, or given. Source: [iso_281].
-    """
+def _contamination(cleanliness: str | tuple[float, float], kappa: float, D: float) -> float:
+    """Return e_C [-] = min(1, A kappa^0.68 D^0.55) (1 - B/D^(1/3)) of a pitch diameter [mm]."""
     if isinstance(cleanliness, str):
         check_option("cleanliness", cleanliness, CLEANLINESS)
         cleanliness = CLEANLINESS[cleanliness]
-    (A, B), D = cleanliness, 1e3 * pitch_diameter
+    A, B = cleanliness
     clean = min(1.0, A * min(kappa, _MOST_KAPPA) ** 0.68 * D**0.55)
     return max(clean * (1.0 - B / D ** (1.0 / 3.0)), 0.0)
 
@@ -199,8 +185,6 @@ def equivalent_load(
     rollers [rad]: e 1.5 tan a, X 0.4, Y 0.4 cot a. 0: F_r, of cylindrical rollers. `catalogue` has
     e, X, Y of a catalogue instead, as for balls.
 
-    Examples
-    --------
     >>> round(equivalent_load(4e3, 3e3, contact_angle=0.25))
     6300
     """
@@ -263,16 +247,15 @@ def bearing_life(
     """
     check_positive("speed", speed, "rad/s", "1000 rpm is 104.7 rad/s.")
     check_option("reliability", str(reliability), map(str, RELIABILITY))
-    for first, second, names in (
-        (load, element_loads, "load or element_loads"),
-        (viscosity, film_ratio, "viscosity or film_ratio"),
-    ):
-        if (first is None) == (second is None):
-            raise ParameterError(f"Give {names}, one of them.")
+    if (load is None) == (element_loads is None):
+        raise ParameterError("Give load or element_loads, one of them.")
+    if (viscosity is None) == (film_ratio is None):
+        raise ParameterError("Give viscosity or film_ratio, one of them.")
     law = bearing.law
-    nu_1 = reference_viscosity(speed, bearing.pitch_diameter)
+    n, D = rads_to_rpm(speed), 1e3 * bearing.pitch_diameter
+    nu_1 = 1e-6 * (45000.0 * n**-0.83 if n < 1000.0 else 4500.0 * n**-0.5) / math.sqrt(D)
     kappa = max(film_ratio or 0.0, 0.0) ** 1.3 if viscosity is None else viscosity / nu_1
-    e_C = contamination_factor(cleanliness, kappa, bearing.pitch_diameter)
+    e_C = _contamination(cleanliness, kappa, D)
     with_ep = additives and kappa < 1.0 and e_C >= _CLEAN_EP
     used = 1.0 if with_ep else min(kappa, _MOST_KAPPA)
     outside = []
@@ -326,9 +309,9 @@ def _slice_sums(bearing: RatedBearing, loads: Array, inner_turns: bool, end_load
         ratings /= _END_LOADS
     sums = np.zeros(n)
     for race, rating in enumerate(ratings * n ** (-7.0 / 9.0) if n > 1 else ratings):
-        exponent = law.exponent(turns=inner_turns == (race == 0))
+        exponent = law.exponents[inner_turns == (race == 0)]
         mean = (loads**exponent).mean(axis=1) ** (1.0 / exponent)
-        sums += ((mean / rating) ** law.exponent(turns=False)).sum(axis=0)
+        sums += ((mean / rating) ** law.exponents[0]).sum(axis=0)
     return sums
 
 
@@ -337,8 +320,6 @@ def life_of_spectrum(lives: Array, revolutions: Array) -> float:
 
     L = sum u/sum(u/L): Palmgren and Miner; a case without an own life makes it not a number.
 
-    Examples
-    --------
     >>> round(life_of_spectrum(np.array([1e6, 4e6]), np.array([1.0, 1.0])))
     1600000
     """

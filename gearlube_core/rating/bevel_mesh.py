@@ -113,7 +113,7 @@ class BevelMesh(Checked):
     @cached_property
     def virtual(self) -> VirtualGears:
         """Virtual cylindrical gears and their contact lines."""
-        return virtual_gears(self)
+        return _virtual_gears(self)
 
 
 class VirtualGears(NamedTuple):
@@ -135,7 +135,7 @@ class VirtualGears(NamedTuple):
     radius: float  # relative, normal to the contact line
 
 
-def virtual_gears(g: BevelMesh) -> VirtualGears:
+def _virtual_gears(g: BevelMesh) -> VirtualGears:
     """Return the virtual gears of a mesh; source [iso_10300_1]."""
     c, module = g.cones, MM * g.cones.normal_module
     deltas = c.pinion_pitch_angle, c.gear_pitch_angle

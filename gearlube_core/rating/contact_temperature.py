@@ -108,8 +108,6 @@ def scuffing_probability(contact: float, scuffing: float, *, spread: float = _SP
     distribution whose deviation over the scuffing temperature in degC is `spread`. Below 0.1 the
     risk is called low, above 0.3 high; 0.15 is not checked against the source [agma_2003].
 
-    Examples
-    --------
     >>> round(scuffing_probability(500.0, 500.0), 2), round(scuffing_probability(450.0, 560.0), 3)
     (0.5, 0.005)
     """

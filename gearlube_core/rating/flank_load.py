@@ -161,11 +161,8 @@ class FlankLoad(Checked):
     def tip_contact_ratios(self) -> Pair:
         """eps_1 and eps_2, of recess at the pinion's tip and of approach [-]."""
         pair = self.pair
-        recess, approach = (
-            pair.contact_end - pair.pitch_point,
-            pair.pitch_point - pair.contact_start,
-        )
-        return recess / pair.base_pitch, approach / pair.base_pitch
+        ends = pair.contact_end - pair.pitch_point, pair.pitch_point - pair.contact_start
+        return ends[0] / pair.base_pitch, ends[1] / pair.base_pitch
 
     @property
     def rolling(self) -> float:

@@ -30,8 +30,6 @@ def bevel_rating(
     had Z_K 0.85 in the stress. A gear without generation (formate) has another Y_Fa than here.
     Z_Hyp is quoted from memory; it meets two printed values.
 
-    Examples
-    --------
     >>> import gearlube as gl
     >>> blank = gl.HypoidGearFile.named("mohammadpour_2015").blank()
     >>> mesh = gl.BevelMesh.of_blank(blank)

@@ -53,8 +53,6 @@ def strength(line: Line, cycles: float) -> float:
 
     Source: Z_NT [iso_6336_2], Y_NT [iso_6336_3].
 
-    Examples
-    --------
     >>> round(strength(PITTING["case_hardened"], 1.080e9), 3)
     0.91
     """
@@ -65,8 +63,6 @@ def strength(line: Line, cycles: float) -> float:
 def cycles_to_failure(line: Line, stress: float | Array) -> Array:
     """Return the cycles that a stress lasts: 0 above the first point, infinite below the last.
 
-    Examples
-    --------
     >>> line = strength_line(PITTING["case_hardened"], 1500.0, 1.0)
     >>> [f"{n:.4g}" for n in cycles_to_failure(line, np.array([1650.0, 1450.0, 1300.0, 1200.0]))]
     ['1.418e+07', '1.51e+08', '5.31e+09', 'inf']
@@ -83,8 +79,6 @@ def miner_sum(line: Line, stress: float | Array, cycles: float | Array) -> Array
     The sum over bins is Miner's; at 1 the member is expected to fail. Infinite: it fails at once.
     Source: [iso_6336_6].
 
-    Examples
-    --------
     >>> line = strength_line(PITTING["case_hardened"], 1500.0, 1.0)
     >>> stress, cycles = np.array([1650.0, 1450.0, 1300.0, 1200.0]), [2e5, 5e6, 5e7, 1e9]
     >>> round(float(miner_sum(line, stress, cycles).sum()), 4)
@@ -106,8 +100,6 @@ def torque_factor(damage: Callable[[float], float]) -> float:
     damage jumps from below 1 to failure at once, the factor is that of the jump. ParameterError
     where the damage is 1 already at 1e-4 times the torque.
 
-    Examples
-    --------
     >>> damage = lambda factor: float(miner_sum(BENDING["case_hardened"], 1.2 * factor, 3e5))
     >>> found = torque_factor(damage)
     >>> round(found, 3), round(damage(found), 6)

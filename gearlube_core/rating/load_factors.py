@@ -11,14 +11,6 @@ from gearlube_core.rating.pairs import MPA, UM, Pair
 _CONTACT_CHECKS = {
     "full_load": (1.0, 1.0, 1.0), "light_load": (1.05, 1.10, 1.25), "none": (1.20, 1.32, 1.50),
 }  # fmt: skip
-_RUN_IN_SHARE = 0.075  # of a deviation that running-in takes off hard flanks, at most 3 um
-
-
-def run_in(deviation: float, gear: RatedGear) -> float:
-    """Return what running-in leaves of a pitch or profile deviation [um]."""
-    if gear.treatment == "through_hardened":
-        return deviation * (1.0 - min(160.0 / (MPA * gear.contact_limit), 1.0))
-    return deviation - min(_RUN_IN_SHARE * deviation, 3.0)
 
 
 def effective_deviations(gears: Gears) -> tuple[float, float, float]:
@@ -26,6 +18,12 @@ def effective_deviations(gears: Gears) -> tuple[float, float, float]:
 
     For K_H alpha the larger of both deviations counts, less what runs in of the pitch.
     """
+
+    def run_in(deviation: float, gear: RatedGear) -> float:
+        if gear.treatment == "through_hardened":
+            return deviation * (1.0 - min(160.0 / (MPA * gear.contact_limit), 1.0))
+        return deviation - min(0.075 * deviation, 3.0)
+
     pitch = max(gears, key=lambda one: one.pitch_deviation)
     profile = max(gears, key=lambda one: one.profile_deviation)
     f_p, f_f = UM * pitch.pitch_deviation, UM * profile.profile_deviation
@@ -129,8 +127,6 @@ def bevel_face_factor(contact_check: str, cantilevers: int) -> float:
     The contact pattern was checked at "full_load", "light_load" or "none", and 0, 1 or 2 members
     are mounted overhung: `cantilevers`.
 
-    Examples
-    --------
     >>> round(bevel_face_factor("light_load", 1), 2)  # [iso_10300_1]
     1.65
     """

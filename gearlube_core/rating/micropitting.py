@@ -154,15 +154,9 @@ def micropitting_rating(
 
     Load of flanks without modification. Source: [iso_6336_22].
 
-    Parameters
-    ----------
-    permissible
-        lambda_GFP, see `permissible_film` [-].
-    bulk, friction, contact
-        As of `specific_film`; None: by the standard's formulas.
+    `permissible` is lambda_GFP, see `permissible_film` [-]; bulk, friction and contact are as of
+    `specific_film`, None: by the standard's formulas.
 
-    Examples
-    --------
     >>> import gearlube as gl
     >>> round(gl.micropitting_rating(gl.FlankLoad.example(), permissible=0.3).safety, 1)
     0.4

@@ -41,12 +41,12 @@ def _contact_lines(
     R_z10 = 0.5 * UM * sum(g.flank_roughness for g in gears) * (10.0 / radius) ** (1.0 / 3.0)
     Z_R = (3.0 / R_z10) ** min(max(0.32 - 2e-4 * softer, 0.08), 0.15)
     Z_W, missing = _work_hardening(gears, radius, 1e6 * oil_viscosity * speed)
-    film = Z_L * Z_v * Z_R
-
-    def line(gear: RatedGear, hardened: float) -> Line:
-        return strength_line(gear.contact_life, gear.contact_limit * further, film * hardened)
-
     found: Factors = {"Z_L": Z_L, "Z_v": Z_v, "Z_R": Z_R, "Z_W": Z_W}
+
+    def line(gear: RatedGear, Z_W: float) -> Line:
+        limit = gear.contact_limit * further
+        return strength_line(gear.contact_life, limit, Z_L * Z_v * Z_R * Z_W)
+
     return both(line, gears, Z_W), found, missing
 
 
@@ -146,11 +146,6 @@ def _root_factors(gear: RatedGear, q_s: float, module: float) -> dict[str, float
     return {"Y_drelT": notch, "Y_RrelT": rough, "Y_X": size, "Y_M": gear.mean_stress}
 
 
-def _bending_line(gear: RatedGear, factors: Mapping[str, float]) -> Line:
-    limit = 2.0 * gear.bending_limit * math.prod(factors.values())
-    return tuple((n, limit * life) for n, life in gear.bending_life)
-
-
 def strength_rating(
     gears: Gears, cycles: Pair, K: Mapping[str, float], forms: tuple[ToothForm, ToothForm], *,
     sigma_H0: float, sigma_F: float, module: float, film: tuple[float, float, float, float],
@@ -170,6 +165,8 @@ def strength_rating(
     contact, of_film, missing = _contact_lines(gears, *film)
     roots = both(lambda g, form: _root_factors(g, form.q_s, module), gears, forms)
     first, second = (form._asdict() | root for form, root in zip(forms, roots, strict=True))
+    limits = both(lambda g, root: 2.0 * g.bending_limit * math.prod(root.values()), gears, roots)
+    bending = both(lambda g, limit: strength_line(g.bending_life, limit, 1.0), gears, limits)
     R_z = both(lambda g: UM * g.root_roughness, gears)
     from_memory = [g.slip_layer is None and g.steel in _LAYERS for g in gears]
     notched = said(
@@ -184,7 +181,7 @@ def strength_rating(
         contact_stress=both(lambda Z_B: Z_B * stress, Z_BD),
         bending_stress=both(lambda s: s * loads, sigma_F0),
         contact_lines=contact,
-        bending_lines=both(_bending_line, gears, roots),
+        bending_lines=bending,
         cycles=cycles,
         factors={
             **K, **found, "sigma_H0": sigma_H0, "Z_BD": Z_BD, "Y_B": Y_B, "sigma_F0": sigma_F0,
