@@ -112,8 +112,40 @@ class BevelMesh(Checked):
 
     @cached_property
     def virtual(self) -> VirtualGears:
-        """Virtual cylindrical gears and their contact lines."""
-        return _virtual_gears(self)
+        """Virtual cylindrical gears and their contact lines; source [iso_10300_1]."""
+        c, module = self.cones, MM * self.cones.normal_module
+        deltas = c.pinion_pitch_angle, c.gear_pitch_angle
+        beta = 0.5 * sum(self.spirals)
+        alpha = math.atan(math.tan(self.effective_angle) / math.cos(beta))
+        base = math.asin(math.sin(beta) * math.cos(self.effective_angle))
+        d = both(lambda one, delta: one / math.cos(delta), self.diameters, deltas)
+        d_a = both(lambda one, h: one + 2.0 * MM * h, d, self.addendum)
+        pitch = math.pi * module * math.cos(alpha) / math.cos(beta)
+        reach = both(lambda a, e: math.sqrt(a * a - (e * math.cos(alpha)) ** 2), d_a, d)
+        path = 0.5 * (sum(reach) - sum(d) * math.sin(alpha))
+        # width in contact, in the plane of the virtual gears
+        half = 0.5 * c.offset_angle
+        skew = math.tan(math.atan(math.sin(deltas[1]) * math.tan(c.axial_offset_angle)) - half)
+        width = MM * self.face_width * self.effective_width / math.cos(half)
+        width = (width - path * math.cos(alpha) * math.tan(half)) / (1.0 - skew * math.tan(half))
+        check_within(
+            "contact width of the virtual gears", width, 1e-2, 1e5, "mm", "Widen the face."
+        )
+        overlap = width * math.sin(beta) / (math.pi * module)
+        length, sharing = _contact_lines(
+            self, base, skew / math.cos(alpha), width, path, pitch, overlap
+        )
+        tangent = math.tan(beta) * math.sin(self.effective_angle)
+        radii = c.pinion_mean_cone_distance, c.gear_mean_cone_distance
+        curved = sum(both(lambda R, delta: 1.0 / (MM * R * math.tan(delta)), radii, deltas))
+        curved *= math.cos(self.spirals[0]) * math.cos(self.spirals[1]) / math.cos(c.offset_angle)
+        lift = math.tan(self.pressure_angle) - math.tan(self.limit_angle)
+        lift = math.cos(self.pressure_angle) * lift + math.tan(c.offset_angle) * tangent
+        return VirtualGears(
+            module, beta, base, alpha, d, d_a, both(lambda one: one * math.cos(beta) / module, d),
+            path / pitch, overlap, width / self.effective_width, length, sharing, tangent,
+            abs(lift / curved) / (1.0 + tangent**2),
+        )  # fmt: skip
 
 
 class VirtualGears(NamedTuple):
@@ -133,39 +165,6 @@ class VirtualGears(NamedTuple):
     sharing: float  # Z_LS
     line_tangent: float  # of the contact line's inclination in the pitch plane
     radius: float  # relative, normal to the contact line
-
-
-def _virtual_gears(g: BevelMesh) -> VirtualGears:
-    """Return the virtual gears of a mesh; source [iso_10300_1]."""
-    c, module = g.cones, MM * g.cones.normal_module
-    deltas = c.pinion_pitch_angle, c.gear_pitch_angle
-    beta = 0.5 * sum(g.spirals)
-    alpha = math.atan(math.tan(g.effective_angle) / math.cos(beta))
-    base = math.asin(math.sin(beta) * math.cos(g.effective_angle))
-    d = both(lambda one, delta: one / math.cos(delta), g.diameters, deltas)
-    d_a = both(lambda one, h: one + 2.0 * MM * h, d, g.addendum)
-    pitch = math.pi * module * math.cos(alpha) / math.cos(beta)
-    reach = both(lambda a, e: math.sqrt(a * a - (e * math.cos(alpha)) ** 2), d_a, d)
-    path = 0.5 * (sum(reach) - sum(d) * math.sin(alpha))
-    # width in contact, in the plane of the virtual gears
-    half = 0.5 * c.offset_angle
-    skew = math.tan(math.atan(math.sin(deltas[1]) * math.tan(c.axial_offset_angle)) - half)
-    width = MM * g.face_width * g.effective_width / math.cos(half)
-    width = (width - path * math.cos(alpha) * math.tan(half)) / (1.0 - skew * math.tan(half))
-    check_within("contact width of the virtual gears", width, 1e-2, 1e5, "mm", "Widen the face.")
-    overlap = width * math.sin(beta) / (math.pi * module)
-    length, sharing = _contact_lines(g, base, skew / math.cos(alpha), width, path, pitch, overlap)
-    tangent = math.tan(beta) * math.sin(g.effective_angle)
-    radii = c.pinion_mean_cone_distance, c.gear_mean_cone_distance
-    curved = sum(both(lambda R, delta: 1.0 / (MM * R * math.tan(delta)), radii, deltas))
-    curved *= math.cos(g.spirals[0]) * math.cos(g.spirals[1]) / math.cos(c.offset_angle)
-    lift = math.tan(g.pressure_angle) - math.tan(g.limit_angle)
-    lift = math.cos(g.pressure_angle) * lift + math.tan(c.offset_angle) * tangent
-    return VirtualGears(
-        module, beta, base, alpha, d, d_a, both(lambda one: one * math.cos(beta) / module, d),
-        path / pitch, overlap, width / g.effective_width, length, sharing, tangent,
-        abs(lift / curved) / (1.0 + tangent**2),
-    )  # fmt: skip
 
 
 def _contact_lines(

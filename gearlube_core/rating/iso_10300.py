@@ -31,8 +31,7 @@ def bevel_rating(
     Z_Hyp is quoted from memory; it meets two printed values.
 
     >>> import gearlube as gl
-    >>> blank = gl.HypoidGearFile.named("mohammadpour_2015").blank()
-    >>> mesh = gl.BevelMesh.of_blank(blank)
+    >>> mesh = gl.BevelMesh.of_blank(gl.HypoidGearFile.named("mohammadpour_2015").blank())
     >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.8e8)
     >>> rating = gl.bevel_rating(
     ...     mesh, (gear, gear), gl.LoadFactors(face=1.65), pinion_torque=200.0, pinion_speed=125.7,

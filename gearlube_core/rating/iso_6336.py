@@ -78,7 +78,13 @@ def cylindrical_rating(
     relief = loads.run_in_relief(gears) if tip_relief is None else UM * tip_relief
     Z, Z_BD = _contact_factors(pair, edition, modified)
     Z_E, per_area = elasticity_factor(gears), F_t * (u + 1.0) / (d1 * b * u)
-    Y, f_eps = _bending_factors(pair, accurate, edition)
+    e_b, e_n = min(pair.overlap_ratio, 1.0), e_a / math.cos(pair.base_helix_angle) ** 2
+    Y_beta, f_eps = 1.0 - e_b * min(helix, 30.0) / 120.0, 1.0
+    if edition == "2019":
+        Y_beta /= math.cos(pair.helix_angle) ** 3
+        deep_spur = e_b == 0.0 and e_n >= 2.0
+        f_eps = 0.7 if deep_spur else math.sqrt(1.0 - e_b + e_b / e_n)
+    Y_DT = min(max(2.366 - 0.666 * e_n, 0.7), 1.0) if accurate and e_n > 2.05 else 1.0
     K = _load_factors(pair, gears, factors, iso, w, pinion_speed, relief, Z["Z_eps"])
     rims = both(lambda g: g.rim_ratio, gears)
     bases = pair.pinion_base_radius, pair.gear_base_radius
@@ -86,12 +92,12 @@ def cylindrical_rating(
     return strength_rating(
         gears, cycles, K, both(lambda gear, k: _tooth_form(pair, gear, k, f_eps), gears, (0, 1)),
         sigma_H0=Z["Z_H"] * Z_E * Z["Z_eps"] * Z["Z_beta"] * math.sqrt(per_area),
-        sigma_F=F_t / (b * m_n) * math.prod(Y.values()),
+        sigma_F=F_t / (b * m_n) * Y_beta * Y_DT,
         module=m_n,
         film=(oil_viscosity, v, MM / curvature, 1.0),
         found={
             "F_t": F_t, "v": v, "c'": 1e-9 * iso.single, "c_ga": 1e-9 * iso.mesh, **Z, "Z_E": Z_E,
-            **Y,
+            "Y_beta": Y_beta, "Y_DT": Y_DT,
         },
         outside=said(
             (e_a < 2.5, f"transverse contact ratio below 2.5, got {e_a:.3f}"),
@@ -156,21 +162,6 @@ def _contact_factors(
 
     Z_beta = 1.0 / math.sqrt(math.cos(pair.helix_angle))
     return {"Z_H": Z_H, "Z_eps": Z_eps, "Z_beta": Z_beta}, both(single, (M1, M2))
-
-
-def _bending_factors(
-    pair: HelicalPair, accurate: bool, edition: str
-) -> tuple[dict[str, float], float]:
-    """Return Y_beta and Y_DT, and f_eps of Y_F."""
-    e_b = min(pair.overlap_ratio, 1.0)
-    e_n = pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2
-    Y_beta, f_eps = 1.0 - e_b * min(math.degrees(pair.helix_angle), 30.0) / 120.0, 1.0
-    if edition == "2019":
-        Y_beta /= math.cos(pair.helix_angle) ** 3
-        deep_spur = e_b == 0.0 and e_n >= 2.0
-        f_eps = 0.7 if deep_spur else math.sqrt(1.0 - e_b + e_b / e_n)
-    Y_DT = min(max(2.366 - 0.666 * e_n, 0.7), 1.0) if accurate and e_n > 2.05 else 1.0
-    return {"Y_beta": Y_beta, "Y_DT": Y_DT}, f_eps
 
 
 def _tooth_form(pair: HelicalPair, gear: RatedGear, member: int, f_eps: float) -> ToothForm:

@@ -13,7 +13,7 @@ from gearlube_core.checks import check_positive
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.gears import StrengthRating
 from gearlube_core.rating.life import miner_sum
-from gearlube_core.rating.pairs import Pair
+from gearlube_core.rating.pairs import Pair, both
 
 PITTING_EXPONENT = 6.611  # of the torque, case-hardened, up to 5e7 cycles
 Rate = Callable[[float, float, float], StrengthRating]
@@ -102,13 +102,14 @@ class SpectrumDamage(NamedTuple):
 
     def sums(self) -> dict[str, Pair]:
         """Return the damage of pinion and gear: pitting of either flank, and breakage."""
-        parts = {
-            "pitting, drive": self.contact[self.drive],
-            "pitting, coast": self.contact[~self.drive],
-            "breakage": self.bending,  # the root feels both flanks
-        }
+
+        def summed(damage: Array) -> Pair:
+            return float(damage[:, 0].sum()), float(damage[:, 1].sum())
+
         return {
-            name: (float(one[:, 0].sum()), float(one[:, 1].sum())) for name, one in parts.items()
+            "pitting, drive": summed(self.contact[self.drive]),
+            "pitting, coast": summed(self.contact[~self.drive]),
+            "breakage": summed(self.bending),  # the root feels both flanks
         }
 
 
@@ -155,11 +156,9 @@ def spectrum_damage(
     for n, (torque, speed, heat) in enumerate(zip(*bins[:3], strict=True)):
         if torque == 0.0 or turns[n] == 0.0:
             continue
-        rating = rate(factor * torque, speed, heat)
-        outside.update(dict.fromkeys(rating.outside))
-        for member, cycles in enumerate((turns[n] * mates[0], turns[n] * mates[1] / ratio)):
-            line, stress = rating.contact_lines[member], rating.contact_stress[member]
-            contact[n, member] = miner_sum(line, stress, cycles)
-            line, stress = rating.bending_lines[member], rating.bending_stress[member]
-            bending[n, member] = miner_sum(line, stress, cycles)
+        found = rate(factor * torque, speed, heat)
+        outside.update(dict.fromkeys(found.outside))
+        cycles = turns[n] * mates[0], turns[n] * mates[1] / ratio
+        contact[n] = both(miner_sum, found.contact_lines, found.contact_stress, cycles)
+        bending[n] = both(miner_sum, found.bending_lines, found.bending_stress, cycles)
     return SpectrumDamage(contact, bending, bins.torque > 0.0, tuple(outside))
