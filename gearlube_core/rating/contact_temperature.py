@@ -15,8 +15,6 @@ from gearlube_core.units import ZERO_CELSIUS
 
 STEEL_EFFUSIVITY = 13_780.0  # sqrt(k rho c) [W s^0.5/(m2 K)]
 STEEL_DIFFUSIVITY = 12e-6  # k/(rho c) [m2/s]
-_LEAST_PECLET = 5.0
-_SPREAD = 0.15  # of the scuffing temperature [degC], standard deviation
 _Number = Array | float
 
 
@@ -97,11 +95,11 @@ def contact_temperature(
     rise = integral / (math.sqrt(math.pi) * (first + second))
     peclet = np.minimum(u1, u2) * 0.25 * (x[-1] - x[0]) * a / diffusivity
     least = float(peclet.min())
-    outside = () if least > _LEAST_PECLET else (f"Peclet number above 5, got {least:.2g}",)
+    outside = () if least > 5.0 else (f"Peclet number above 5, got {least:.2g}",)
     return ContactTemperature(T_M + rise, T_M, peclet, outside)
 
 
-def scuffing_probability(contact: float, scuffing: float, *, spread: float = _SPREAD) -> float:
+def scuffing_probability(contact: float, scuffing: float, *, spread: float = 0.15) -> float:
     """Return the probability of scuffing of a greatest contact temperature [-].
 
     Of the greatest temperature in the contact and the mean at which the oil scuffs [K], by a normal

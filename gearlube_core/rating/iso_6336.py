@@ -13,7 +13,7 @@ from gearlube_core.helical_geometry import iso_6336_stiffness as teeth
 from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.rating import load_factors as loads
 from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear, StrengthRating, check_load
-from gearlube_core.rating.pairs import MM, UM, Pair, both, said
+from gearlube_core.rating.pairs import MM, MPA, UM, Pair, both, said
 from gearlube_core.rating.strength import ToothForm, elasticity_factor, strength_rating, tooth_form
 
 EDITIONS = ("2006", "2019")
@@ -75,7 +75,9 @@ def cylindrical_rating(
     w = F_t * factors.shock / b
     moduli = both(lambda g: g.modulus, gears)
     iso = teeth.iso_stiffness(pair, line_load=1e3 * w, modulus=moduli, blank_factor=blank_factor)
-    relief = loads.run_in_relief(gears) if tip_relief is None else UM * tip_relief
+    limits = both(lambda g: MPA * g.contact_limit, gears)
+    run_in = 0.5 * sum((limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5 for limit in limits)  # C_ay
+    relief = run_in if tip_relief is None else UM * tip_relief
     Z, Z_BD = _contact_factors(pair, edition, modified)
     Z_E, per_area = elasticity_factor(gears), F_t * (u + 1.0) / (d1 * b * u)
     e_b, e_n = min(pair.overlap_ratio, 1.0), e_a / math.cos(pair.base_helix_angle) ** 2

@@ -31,12 +31,6 @@ def effective_deviations(gears: Gears) -> tuple[float, float, float]:
     return left, run_in(f_f, profile), max(f_p, f_f) - (f_p - left)
 
 
-def run_in_relief(gears: Gears) -> float:
-    """Return C_ay, the tip relief that running-in makes [um], the mean of both members."""
-    limits = [MPA * one.contact_limit for one in gears]
-    return 0.5 * sum((limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5 for limit in limits)
-
-
 def resonance(teeth: float, masses: Pair, stiffness: float, speed: float) -> Pair:
     """Return n_E1 of a pinion [1/min], and N, its speed [rad/s] over that of resonance [-].
 
@@ -75,9 +69,8 @@ def dynamic_factor(
 def transverse_factor(contact_ratio: float, X: float) -> float:
     """Return K_H alpha [-] before its bounds; X is stiffness times deviation over line load."""
     e = contact_ratio
-    if e <= 2.0:
-        return 0.5 * e * (0.9 + 0.4 * X)
-    return 0.9 + 0.4 * math.sqrt(2.0 * (e - 1.0) / e) * X
+    few = 0.5 * e * (0.9 + 0.4 * X)
+    return few if e <= 2.0 else 0.9 + 0.4 * math.sqrt(2.0 * (e - 1.0) / e) * X
 
 
 def face_load_factor(
