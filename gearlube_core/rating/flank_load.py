@@ -46,8 +46,7 @@ class FlankOil(Checked):
 
     Examples
     --------
-    >>> import gearlube as gl
-    >>> oil = gl.FlankOil.of(gl.Lubricant.named("fva_3"), temperature=353.15, load_stage=12)
+    >>> oil = FlankOil.of(Lubricant.named("fva_3"), temperature=353.15, load_stage=12)
     >>> round(1e3 * oil.viscosity(oil.temperature), 1)
     17.1
     """
@@ -89,15 +88,9 @@ class PathPoints(NamedTuple):
 class FlankLoad(Checked):
     """What scuffing and micropitting of a cylindrical pair take.
 
-    Parameters
-    ----------
-    pair, gears, oil
-        Geometry; roughness and moduli; oil.
-    line_load, load_factor
-        F_t/b without load factors; K_A K_gamma K_v K_H beta K_H alpha.
+    Geometry; gears with roughness and moduli; oil. The line load is F_t/b without load factors, the
+    load factor K_A K_gamma K_v K_H beta K_H alpha.
 
-    Examples
-    --------
     >>> round(FlankLoad.example().mean_friction, 3)
     0.067
     """

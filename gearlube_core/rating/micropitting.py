@@ -116,21 +116,11 @@ def permissible_film(
 ) -> float:
     """Return lambda_GFP = 1.4 W_W lambda_GFT of the C-GF test gear at its failure stage [-].
 
+    `test_torque` is T1 of that stage, 265.1 at stage 10 [N.m]; `bulk` and `contact` are T_M and T_B
+    at point A, as the test of the oil has them [K]; `material` is W_W [-]: 1 case-hardened pair,
+    0.75 with a through-hardened gear; `film` is viscosity and oil of `specific_film`.
     For a film by another law, solve `TEST_POINT` with that law. Source: [iso_6336_22].
 
-    Parameters
-    ----------
-    test_torque
-        T1 of that stage, 265.1 at stage 10 [N.m].
-    bulk, contact
-        T_M and T_B at point A, as the test of the oil has them [K].
-    material
-        W_W [-]: 1 case-hardened pair, 0.75 with a through-hardened gear.
-    **film
-        viscosity and oil of `specific_film`.
-
-    Examples
-    --------
     >>> def eta(temperature):
     ...     return 1e-3 * math.exp(1200.0 / (temperature - 180.0) - 3.5)
     >>> round(permissible_film(265.1, bulk=400.85, contact=524.85, viscosity=eta), 2)
@@ -152,13 +142,11 @@ def micropitting_rating(
 
     p = Z_E (F_t X/(b rho_n cos(alpha_t)))^(1/2) (K_A K_gamma K_v K_H beta K_H alpha)^(1/2)
 
-    Load of flanks without modification. Source: [iso_6336_22].
+    Load of flanks without modification. Source: [iso_6336_22]. `permissible` is lambda_GFP, see
+    `permissible_film` [-]; bulk, friction and contact are as of `specific_film`, None: by the
+    standard's formulas.
 
-    `permissible` is lambda_GFP, see `permissible_film` [-]; bulk, friction and contact are as of
-    `specific_film`, None: by the standard's formulas.
-
-    >>> import gearlube as gl
-    >>> round(gl.micropitting_rating(gl.FlankLoad.example(), permissible=0.3).safety, 1)
+    >>> round(micropitting_rating(FlankLoad.example(), permissible=0.3).safety, 1)
     0.4
     """
     check_positive("permissible", permissible, "", "0.1 to 0.5 is usual.")

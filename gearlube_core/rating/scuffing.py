@@ -69,23 +69,14 @@ def flash_rating(
     theta_M = theta_oil + 0.47 X_S X_mp mean(theta_fl),  theta_B = theta_M + max(theta_fl)
     theta_S = 80 + (0.85 + 1.4 X_W) X_L S^2,  X_L = eta^-0.05
 
-    ParameterError where the oil has no load stage. One worked example, met within 6 %.
+    One worked example, met within 6 %. ParameterError where the oil has no load stage.
     Source: [iso_6336_20].
 
-    Parameters
-    ----------
-    friction
-        mu_m [-]; None: 0.06 (w/(v_g rho))^0.2 X_L X_R, whose X_R is not checked against the source.
-    structure
-        X_W [-]: 1 case-hardened; 0.45 austenitic, 1.25 phosphated, 1.5 nitrided, which are not
-        checked against the source.
-    paths
-        X_mp, of several meshes [-].
+    `friction` is mu_m [-], None: 0.06 (w/(v_g rho))^0.2 X_L X_R, whose X_R is not checked against
+    the source. `structure` is X_W [-]: 1 case-hardened; 0.45 austenitic, 1.25 phosphated, 1.5
+    nitrided, which are not checked against the source. `paths` is X_mp, of several meshes [-].
 
-    Examples
-    --------
-    >>> import gearlube as gl
-    >>> round(gl.flash_rating(gl.FlankLoad.example()).safety, 1)
+    >>> round(flash_rating(FlankLoad.example()).safety, 1)
     3.4
     """
     (c, stage), path, u, oil = _common(load), load.path, load.pair.ratio, load.oil
@@ -124,19 +115,11 @@ def integral_rating(
     X_eps of contact ratios of a member above 1, and X_Q, are not checked against the source; the
     flanks are run in. ParameterError where the oil has no load stage. Source: [iso_6336_21].
 
-    Parameters
-    ----------
-    effective_relief, tip_relief
-        C_eff, deflection of the teeth: F_t K_A/(b c_gamma); C_a of the member that counts [m].
-    pinion_drives
-        Whether the pinion drives, of which the meshing factor X_Q depends.
-    relative_structure
-        X_WrelT [-].
+    `effective_relief` is C_eff, the deflection of the teeth, F_t K_A/(b c_gamma), `tip_relief` C_a
+    of the member that counts [m]. X_Q depends on whether the pinion drives; `relative_structure`
+    is X_WrelT [-].
 
-    Examples
-    --------
-    >>> import gearlube as gl
-    >>> round(gl.integral_rating(gl.FlankLoad.example(), effective_relief=1e-5).safety, 1)
+    >>> round(integral_rating(FlankLoad.example(), effective_relief=1e-5).safety, 1)
     2.7
     """
     check_positive("effective_relief", effective_relief, "m", "45 um is 4.5e-5 m.")
