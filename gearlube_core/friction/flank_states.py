@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from gearlube_core.arrays import Array
+from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
+from gearlube_core.contact.solid import SolidParameters
+from gearlube_core.friction.mixed_friction import asperity_contact
+from gearlube_core.kernels.jit import kernel
 
 
 class BearingStates(NamedTuple):
@@ -53,3 +59,24 @@ class FlankStates(NamedTuple):
     def friction_power(self) -> float:
         """Mean of all pairs over a mesh period [W]."""
         return float((self.friction * self.sliding).sum() * self.share_of_time)
+
+
+@kernel
+def asperity_shares(
+    load: Array,
+    pressure: Array,
+    film_ratio: Array,
+    surface: SurfaceParameters,
+    solid: SolidParameters,
+    form: int,
+) -> Array:
+    """Return the shares of loads that asperities carry [-], see `asperity_contact`.
+
+    Loads are those of contacts [N], or of lines per length [N/m]; pressures are the mean [Pa].
+    """
+    shares = np.empty(load.size)
+    for i in range(load.size):
+        F = load[i]
+        carried, _ = asperity_contact(F, F / pressure[i], film_ratio[i], surface, solid, form)
+        shares[i] = carried / F
+    return shares

@@ -44,8 +44,7 @@ from gearlube_core.ehl.gears.hypoid_film import pair_contact
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.friction.flank_laws import MixedFlankFriction
-from gearlube_core.friction.flank_states import BearingStates, FlankStates
-from gearlube_core.friction.mixed_friction import asperity_contact
+from gearlube_core.friction.flank_states import BearingStates, FlankStates, asperity_shares
 from gearlube_core.kernels.flat_tuples import flatten, tuple_from_array
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.kernels import load_bracket, pair_channels
@@ -223,10 +222,7 @@ def flank_states(
     of_pair = pair_contact(mesh, math.copysign(torque, carried), phase)
     share = np.ones(load.size)
     if isinstance(law, MixedFlankFriction):
-        share = np.array([
-            asperity_contact(F, F / p_m, ratio, law.surface, solid, int(law.form))[0] / F
-            for F, p_m, ratio in zip(load, mean, film_ratio, strict=True)
-        ])  # fmt: skip
+        share = asperity_shares(load, mean, film_ratio, law.surface, solid, int(law.form))
     across, half = speed * of_pair.entrainment[:, 0], 0.5 * speed * of_pair.sliding[:, 0]
     still = np.stack([across + half, across - half])
     # the contact moves over the gear tooth, so flanks pass it faster than they pass a point at rest
