@@ -235,12 +235,17 @@ from gearlube_core.rating.life import torque_factor as torque_factor
 from gearlube_core.rating.spectrum import duty_bins as duty_bins
 from gearlube_core.rating.spectrum import spectrum_damage as spectrum_damage
 
-# -- Damage of an axle over a duty cycle
+# -- Damage of an axle or a pair over a duty cycle
 from gearlube_core.dynamics.hypoid_axle.flank_states import flank_states as flank_states
 from gearlube.damage.bins import read_bins as read_bins
 from gearlube.damage.bins import cycle_bins as cycle_bins
 from gearlube.damage.settings import DamageSettings as DamageSettings
 from gearlube.damage.run import run_damage as run_damage
+from gearlube.damage.pair import pair_settings as pair_settings
+from gearlube.damage.pair import helical_teeth as helical_teeth
+from gearlube_core.dynamics.helical_pair.flank_states import (
+    helical_flank_states as helical_flank_states,
+)
 
 # -- Study: helical pair
 from gearlube.studies.helical.settings import HelicalSettings as HelicalSettings

@@ -1,1 +1,1 @@
-"""Will an axle last: damage of flanks, roots and bearings over a duty cycle."""
+"""Will gears last: damage of flanks, roots and bearings over a duty cycle."""

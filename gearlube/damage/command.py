@@ -21,16 +21,20 @@ torque_n_m, speed_rpm, temperature_degc, hours
 
 
 def damage(
-    axle: Annotated[
+    gear_set: Annotated[
         str,
-        typer.Argument(help="Axle file (TOML) or the name of a shipped one.", metavar="AXLE"),
+        typer.Argument(
+            help="Axle file, gear file of a helical or spur pair (TOML), or the name of a shipped "
+            "one.",
+            metavar="AXLE|PAIR",
+        ),
     ] = "mohammadpour_2015",
     cycle: Annotated[
         str,
         typer.Option(
             "--cycle",
             help="nedc, wltc, ftp75, a cycle as for `gearlube cycle`, or a table of bins (CSV) "
-            "with torque_n_m, speed_rpm, temperature_degc and hours.",
+            "with torque_n_m, speed_rpm, temperature_degc and hours. A pair takes a table.",
             metavar="NAME|FILE",
         ),
     ] = "wltc",
@@ -91,6 +95,25 @@ def damage(
         float | None,
         typer.Option(help="Composite roughness of raceways and rollers, for solved films [µm]."),
     ] = None,
+    load_stage: Annotated[
+        float | None,
+        typer.Option(
+            help="Of a pair: failure load stage of the oil in the FZG test "
+            "A/8.3/90; its torque is not checked against the source."
+        ),
+    ] = None,
+    edition: Annotated[
+        str | None,
+        typer.Option(help="Of a pair: of ISO 6336-2, -3. Default: 2006.", metavar="2006|2019"),
+    ] = None,
+    oil: Annotated[
+        str | None,
+        typer.Option(help="Of a pair: oil or oil file (TOML); left out: that of the gear file."),
+    ] = None,
+    roughness_um: Annotated[
+        float | None,
+        typer.Option(help="Of a pair: composite rms roughness of the flanks [µm]. Default: 0.5."),
+    ] = None,
     scuffing_temperature: Annotated[
         float | None, typer.Option(help="At which the oil scuffs, mean of tests [degC].")
     ] = None,
@@ -104,7 +127,7 @@ def damage(
     overwrite: OverwriteOption = False,
     example: Annotated[bool, prints_example(lambda: _EXAMPLE, "a table of bins")] = False,
 ) -> None:
-    """Will it last? Damage of flanks, roots and bearings of an axle over a duty cycle.
+    """Will it last? Damage of an axle over a duty cycle, or of a helical or spur pair.
 
     Lays the numbers of standards and the solved contact side by side. Writes damage.nc, damage.csv,
     summary.csv, report.html and figures.
@@ -112,23 +135,57 @@ def damage(
     from drivetrain.axle_file.read_axle import read_axle
     from drivetrain.cycle.traces import DriveCycle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
+    from gearlube.cli.study_run import progress_on
     from gearlube.damage.bins import cycle_bins, is_bins, joined, read_bins
+    from gearlube.damage.pair import check_options, helical_teeth, is_pair, pair_settings
     from gearlube.damage.report import damage_report
     from gearlube.damage.run import run_damage
-    from gearlube.damage.settings import DamageSettings, rated_bearing, rated_pair
+    from gearlube.damage.settings import DamageSettings, rated_bearing, rated_gears, rated_pair
     from gearlube.damage.summary import SUMMARY_HEAD
-    from gearlube.report.inputs import noted_inputs
+    from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.report.parts import Input
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+    from gearlube_core.errors import ParameterError
+    from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+    from gearlube_core.oil.oil_file import read_oil
     from gearlube_core.rating.gears import LoadFactors
     from gearlube_core.units import celsius_to_kelvin
 
     with study_run("damage", out, overwrite=overwrite) as run:
-        material, blank = rated_pair(axle, gears, treatment, contact_limit_mpa, bending_limit_mpa)
-        bring_gears_up_to_date(axle)
-        car = read_axle(axle)
+        limits = treatment, contact_limit_mpa, bending_limit_mpa
+        car = blank = teeth = None
+        pair = is_pair(gear_set)
+        check_options(
+            pair,
+            {
+                "--gears": gears or None,
+                "--pinion-bearings-kn": pinion_bearings_kn,
+                "--gear-bearings-kn": gear_bearings_kn,
+                "--cleanliness": cleanliness,
+                "--raceway-roughness-um": raceway_roughness_um,
+            },
+            {
+                "--oil": oil,
+                "--roughness-um": roughness_um,
+                "--load-stage": load_stage,
+                "--edition": edition,
+            },
+        )
+        if pair:
+            file = HelicalGearFile.given(gear_set)
+            material, inputs_of = rated_gears(*limits), file_inputs(file)
+        else:
+            material, blank = rated_pair(gear_set, gears, *limits)
+            bring_gears_up_to_date(gear_set)
+            car = read_axle(gear_set)
+            inputs_of = noted_inputs(car.inputs)
         if is_bins(cycle):
             bins, duty = read_bins(cycle), Path(cycle).name
+        elif car is None:
+            raise ParameterError(
+                f"--cycle of a pair must be a table of bins with hours, got {cycle!r}: a vehicle "
+                "cycle needs an axle. `gearlube damage --example` prints a table."
+            )
         else:
             driven = DriveCycleSettings(
                 car=car,
@@ -141,15 +198,27 @@ def damage(
             duty = f"{cycle} over {distance_km:g} km"
         if add is not None:
             bins, duty = joined(bins, read_bins(add)), f"{duty}, and {add.name}"
+        if pair:
+            contact = pair_settings(
+                file, bins, oil=None if oil is None else read_oil(oil).lubricant,
+                roughness_rms=1e-6 * (0.5 if roughness_um is None else roughness_um),
+            )  # fmt: skip
+            with progress_on("contact") as progress:
+                teeth = helical_teeth(
+                    contact, edition=edition or "2006", load_stage=load_stage, progress=progress
+                )
         settings = DamageSettings(
             car=car,
+            pair=teeth,
             bins=bins,
             gears=material,
             blank=blank,
             factors=LoadFactors(face=face_factor, application=application_factor),
             wear_coefficient=wear_coefficient,
             wear_of_all_load=wear_of_all_load,
-            bearings=(
+            bearings=(None, None)
+            if car is None
+            else (
                 rated_bearing(car.axle.bearing, pinion_bearings_kn),
                 rated_bearing(car.axle.gear_bearing or car.axle.bearing, gear_bearings_kn),
             ),
@@ -174,9 +243,12 @@ def damage(
             "C, C_0 of the pinion's bearings [kN]": pinion_bearings_kn,
             "C, C_0 of the gear's bearings [kN]": gear_bearings_kn,
             "cleanliness": cleanliness,
+            "oil": settings.teeth.oil.name,
+            "load stage": load_stage,
+            "roughness [µm]": roughness_um,
         }
         inputs = [Input(name, str(value)) for name, value in given.items() if value is not None]
-        report = damage_report(dataset, out / "figures", [*inputs, *noted_inputs(car.inputs)])
+        report = damage_report(dataset, out / "figures", [*inputs, *inputs_of])
         table = empty_table("Will it last?", *SUMMARY_HEAD[:2], ">safety", "verdict")
         for row in report.tables[0].rows:
             table.add_row(str(row[0]), str(row[1]), str(row[3]), str(row[5]))

@@ -22,6 +22,7 @@ _MAPS = {
 }
 _BARS = {"contact_damage": "pitting damage by the standard", "wear": "wear depth [µm]"}
 _SHOWN, _LEAST = 10, 1e-3  # bins in a chart, and the share of the sum that is shown
+_NARROW = 2.0  # width over height, below which a tooth fills its panel
 _INSIDE = 99.0  # percent of the cells that the colours span
 
 
@@ -57,6 +58,8 @@ def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
             top = float(np.nanpercentile(shown, _INSIDE))
             image = ax.pcolormesh(x, y, shown, cmap=colours, vmin=0.0, vmax=top, rasterized=True)
             tooth.draw(ax, title)
+            if tooth.width < _NARROW * tooth.height:
+                ax.set_aspect("auto")
             figure.colorbar(image, ax=ax, label=unit, shrink=0.85)
         for ax in axes[:-1].ravel():
             ax.set_xlabel("")

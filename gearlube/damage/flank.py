@@ -1,4 +1,4 @@
-"""What one load does to the flanks of an axle, along the engagement and on the drawn tooth."""
+"""What one load does to flanks, along the engagement and on the drawn tooth."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from gearlube_core.rating.wear import wear_per_cycle
 WIDE, HIGH = 96, 32  # cells of a map, along the tooth and up
 _FINER = 8  # lines between two states
 _ACROSS = np.linspace(-1.0, 1.0, 81)  # along a contact line, over the semi-axis
+_WITHIN = np.zeros(1)  # the same along a strip, which is as narrow as a cell
 _BAND = np.linspace(-1.0, 1.0, 121)  # across it
 # a quantity along the contact line goes with this power of 1 - (y/b)^2
 POWERS = {
@@ -75,24 +76,25 @@ def tooth_maps(
     """Return the quantities of `POWERS` on the drawn gear tooth, (HIGH, WIDE); 0: no contact.
 
     Every point of a flank is passed by the contact line once. Lines are laid between the states, as
-    long as the Hertz ellipse, and cut off at the edges of the tooth. Pressure, temperature and heat
-    are the largest while it passes, the film the thinnest; wear is that of one pass. The pinion is
-    drawn where it touches the gear.
+    long as the Hertz ellipse, and cut off at the edges of the tooth; strips are laid as they are.
+    Pressure, temperature and heat are the largest while the line passes, the film the thinnest;
+    wear is that of one pass. The pinion is drawn where it touches the gear.
     """
     n = states.load.size
-    fine = np.linspace(0.0, n - 1.0, _FINER * n)
+    fine = np.linspace(0.0, n - 1.0, n if states.strips else _FINER * n)
+    across = _WITHIN if states.strips else _ACROSS
+    profile = np.ones_like(across) if states.strips else 1.0 - across**2
 
     def between(values: Array) -> Array:
         return np.interp(fine, np.arange(n), values)[:, None]
 
     at, cells = [], []
     for axis, (size, count) in enumerate(zip(tooth_size, (WIDE, HIGH), strict=True)):
-        along = between(states.semi_major * states.major[:, axis]) * _ACROSS
+        along = between(states.semi_major * states.major[:, axis]) * across
         at.append((between(states.place[:, axis]) + along) / size)
         cells.append((at[-1] * count).astype(int))
     inside = (at[0] >= 0.0) & (at[0] < 1.0) & (at[1] >= 0.0) & (at[1] < 1.0)
     cell = (cells[1] * WIDE + cells[0])[inside]
-    profile = 1.0 - _ACROSS**2
     maps = {}
     for name, power in POWERS.items():
         values = between(getattr(damage, name)) * profile**power

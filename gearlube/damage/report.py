@@ -44,7 +44,8 @@ _LIMITS = (
 )
 _OF_BINS = "The bins that do most, at most ten, with torque, speed and oil temperature."
 _CAPTION = (
-    "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact."
+    "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact, or "
+    "no damage."
 )
 
 
@@ -94,6 +95,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     return [
         *found,
         *_strength(dataset),
+        *(Finding(NOTE, *words) for words in json.loads(dataset.attrs["notes"])),
         *_worst(dataset),
         *_doubts(dataset),
         *(Finding(WARNING, words) for words in outside),
@@ -102,6 +104,8 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
 
 def _strength(dataset: xr.Dataset) -> list[Finding]:
     factors = json.loads(dataset.attrs["torque_factors"])
+    if not factors and dataset.attrs["withheld"]:
+        return [Finding(WARNING, f"No strength: {dataset.attrs['withheld']}.")]
     if not factors:
         cure = (
             "Give --contact-limit-mpa and --bending-limit-mpa; 1500 and 430 MPa are an example of "

@@ -1,4 +1,4 @@
-"""Damage of an axle over its life: each bin of torque, speed and temperature solved once."""
+"""Damage of gears over their life: each bin of torque, speed and temperature solved once."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gearlube.damage.figures import damage_figures
 from gearlube.damage.flank import HIGH, WIDE, flank_damage, tooth_maps
 from gearlube.damage.settings import DamageSettings
 from gearlube.damage.summary import SUMMARY_HEAD, summary_rows
-from gearlube.damage.teeth import Teeth
+from gearlube.damage.teeth import Beside, Teeth
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.cycle import variables_of
@@ -32,6 +32,7 @@ from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 
 _LEAST_TORQUE = 1e-3  # N.m; below, the standard rates nothing
 _BIN, _MEMBER, _BEARING = ("bin",), ("bin", "member"), ("bin", "bearing")
+_BEARINGS = ["pinion, first", "pinion, second", "gear, first", "gear, second"]
 _SIDE, _BOTH = ("side", "up", "along"), ("side", "member", "up", "along")
 # what each bin has: dimensions, unit, words
 _OF_BINS = {
@@ -56,12 +57,12 @@ _OF_BINS = {
 def run_damage(
     settings: DamageSettings, *, folder: Path | None = None, progress: Progress = no_progress
 ) -> xr.Dataset:
-    """Return what the bins of a life do to flanks, roots and bearings of an axle.
+    """Return what the bins of a life do to flanks, roots and bearings of an axle or a pair.
 
     Parameters
     ----------
     settings
-        Axle, bins, materials, bearings.
+        Axle or pair, bins, materials, bearings.
     folder
         For damage.nc, damage.csv, summary.csv and figures; None: nothing is written.
     progress
@@ -114,10 +115,13 @@ def run_damage(
         "cycles": (_MEMBER, cycles, "1", "load cycles of a tooth"),
         **{name: (at, values[name], *words) for name, (at, *words) in shown.items()},
     }
+    beside = Beside([], (), ())
+    if teeth.beside is not None:
+        beside = teeth.beside(bins, settings.gears, settings.factors)
     if rate is not None:
         progress(0.9, "torque factors")
         damage, factors = _torque_factors(bins, rate, ratio)
-        outside = "\n".join(damage.outside)
+        outside = "\n".join(dict.fromkeys((*damage.outside, *beside.outside)))
         one["contact_damage"] = _MEMBER, damage.contact, "1", "pitting damage of the standard"
         one["bending_damage"] = _MEMBER, damage.bending, "1", "breakage damage of the standard"
     on = [~values["on_coast"], values["on_coast"]]
@@ -146,8 +150,9 @@ def run_damage(
     named = {
         "side": np.array(["drive", "coast"]),
         "member": np.array(["pinion", "gear"]),
-        "bearing": np.array(["pinion, first", "pinion, second", "gear, first", "gear, second"]),
     }
+    if "radial_load" in values:
+        named["bearing"] = np.array(_BEARINGS)
     dataset = xr.Dataset(
         variables_of(one),
         coords={**places, **named},
@@ -163,9 +168,11 @@ def run_damage(
             "outside": outside,
             "table_torque_n_m": teeth.solved_torque,
             "torque_factors": json.dumps(factors),
+            "withheld": teeth.withheld,
+            "notes": json.dumps(beside.notes),
         },
     )
-    dataset.attrs["summary"] = json.dumps(summary_rows(dataset, settings))
+    dataset.attrs["summary"] = json.dumps(summary_rows(dataset, settings, beside.rows))
     if folder is not None:
         _write(dataset, folder)
     progress(1.0, "damage")

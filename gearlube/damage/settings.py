@@ -26,12 +26,14 @@ _MOST_BINS = 1000
 
 @dataclass(frozen=True, kw_only=True)
 class DamageSettings(Checked):
-    """An axle, its life in bins, and what its gears and bearings bear.
+    """An axle or a pair, its life in bins, and what its gears and bearings bear.
 
     Parameters
     ----------
     car
         Axle of an axle file; its mesh table has the places of contact on the tooth.
+    pair
+        Teeth of a helical or spur pair, see `helical_teeth`, where there is no axle.
     bins
         Torque on the pinion, speed of the pinion, oil temperature, time of the whole life; see
         `cycle_bins`, `read_bins`.
@@ -65,8 +67,9 @@ class DamageSettings(Checked):
     True
     """
 
-    car: CarAxle
     bins: DutyBins
+    car: CarAxle | None = None
+    pair: Teeth | None = None
     gears: Gears | None = None
     blank: HypoidBlank | None = None
     factors: LoadFactors = field(default_factory=lambda: LoadFactors(face=1.65))
@@ -95,6 +98,13 @@ class DamageSettings(Checked):
     @cached_property
     def teeth(self) -> Teeth:
         """Those that mesh."""
+        if self.pair is not None and self.car is None:
+            return self.pair
+        if self.pair is not None or self.car is None:
+            raise ParameterError(
+                "Either car or pair must be given, got "
+                f"{'neither' if self.car is None else 'both'}. Take `read_axle` or `helical_teeth`."
+            )
         return axle_teeth(self.car, self.blank)
 
     @property
@@ -102,6 +112,30 @@ class DamageSettings(Checked):
         """The standard's rating over torque [N.m], speed [rad/s], temperature [K]; None: none."""
         rate = self.teeth.rate
         return None if rate is None or self.gears is None else rate(self.gears, self.factors)
+
+
+def rated_gears(
+    treatment: str, contact_mpa: float | None, bending_mpa: float | None
+) -> Gears | None:
+    """Return the material of both gears with limits in MPa; None: neither is given.
+
+    Raises
+    ------
+    ParameterError
+        One of both limits is missing, or out of range.
+    """
+    if contact_mpa is None and bending_mpa is None:
+        return None
+    if contact_mpa is None or bending_mpa is None:
+        raise ParameterError(
+            f"Both limits of the gears must be given, got contact {contact_mpa} and bending "
+            f"{bending_mpa} MPa. 1500 and 430 MPa are an example of case-hardened steel of medium "
+            "quality."
+        )
+    gear = RatedGear(
+        treatment=treatment, contact_limit=1e6 * contact_mpa, bending_limit=1e6 * bending_mpa
+    )
+    return gear, gear
 
 
 def rated_pair(
@@ -121,14 +155,9 @@ def rated_pair(
     ParameterError
         One of both limits is missing, or the gear file.
     """
-    if contact_mpa is None and bending_mpa is None:
+    material = rated_gears(treatment, contact_mpa, bending_mpa)
+    if material is None:
         return None, None
-    if contact_mpa is None or bending_mpa is None:
-        raise ParameterError(
-            f"Both limits of the gears must be given, got contact {contact_mpa} and bending "
-            f"{bending_mpa} MPa. 1500 and 430 MPa are an example of case-hardened steel of medium "
-            "quality."
-        )
     named = AxleFile.given(axle).gear_set
     if not gears and named.gear_file is not None:
         gears = str(Path(axle).parent / named.gear_file)
@@ -138,10 +167,7 @@ def rated_pair(
             f"The standard needs the gear file of the axle's gears, got the mesh table {gears!r} "
             "alone. Name the gear file with --gears."
         )
-    gear = RatedGear(
-        treatment=treatment, contact_limit=1e6 * contact_mpa, bending_limit=1e6 * bending_mpa
-    )
-    return (gear, gear), HypoidGearFile.given(gears).blank()
+    return material, HypoidGearFile.given(gears).blank()
 
 
 def rated_bearing(size: Bearing, ratings_kn: Sequence[float] | None) -> RatedBearing | None:

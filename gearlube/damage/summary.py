@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
 from gearlube.damage.settings import DamageSettings
+from gearlube.damage.teeth import Row, safety_row
 from gearlube.report.numbers import number_text
 from gearlube_core.rating.contact_temperature import scuffing_probability
 from gearlube_core.units import ZERO_CELSIUS
@@ -23,9 +25,11 @@ TOO_DEEP = "too deep for the rate of a new flank"
 _RISKS = ((0.1, "low risk"), (0.3, "moderate risk"), (1.01, "high risk"))
 
 
-def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[str, ...]]:
-    """Return the rows of the summary, texts in the order of `SUMMARY_HEAD`."""
-    rows = []
+def summary_rows(
+    dataset: xr.Dataset, settings: DamageSettings, more: Sequence[Row] = ()
+) -> list[Row]:
+    """Return the rows of the summary, in the order of `SUMMARY_HEAD`; `more` are by standards."""
+    rows: list[Row] = []
     drive = dataset["torque"].values > 0.0
     by = f"{dataset.attrs['standard']}; Miner's sum by ISO 6336-6"
     for mode, pair in json.loads(dataset.attrs["torque_factors"]).items():
@@ -33,7 +37,9 @@ def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[st
         if side.any():
             sums = dataset[_MODES[mode]].values[side].sum(axis=0)
             for role, total, factor in zip(("pinion", "gear"), sums, pair, strict=True):
-                rows.append(_row(f"{mode}, {role}", total, "1", factor, "1", "safe", by))
+                value = number_text(total)
+                rows.append(safety_row(f"{mode}, {role}", value, "1", factor, "1", "safe", by))
+    rows += more
     for i, side_name in enumerate(("drive", "coast")):
         for j, role in enumerate(("pinion", "gear")):
             local = dataset["local_damage_map"].values[i, j].max()
@@ -68,6 +74,8 @@ def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[st
         ("bearing_damage", "basic life", "ISO/TS 16281:2008, load of each roller"),
         ("bearing_damage_modified", "modified life", "the same with a_ISO"),
     ):
+        if name not in dataset:
+            break
         for k, place in enumerate(dataset["bearing"].values):
             used = dataset[name].values[:, k]
             asked = name == "bearing_damage" or settings.cleanliness is not None
@@ -79,12 +87,6 @@ def summary_rows(dataset: xr.Dataset, settings: DamageSettings) -> list[tuple[st
                 rows.append((label, "", "", "", "", why, by))
                 continue
             life = 1.0 / total if total > 0.0 else np.inf
-            rows.append(_row(label, total, "1", life, "1", "lasts", f"{by}; safety: of life"))
+            value, how = number_text(total), f"{by}; safety: of life"
+            rows.append(safety_row(label, value, "1", life, "1", "lasts", how))
     return rows
-
-
-def _row(
-    name: str, value: float, limit: str, safety: float, required: str, good: str, by: str
-) -> tuple[str, ...]:
-    verdict = good if safety >= 1.0 else "fails"
-    return name, number_text(value), limit, number_text(safety), required, verdict, by

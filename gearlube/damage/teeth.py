@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from drivetrain.axle_file.axle_file import CarAxle
 from gearlube.plotting.drawn_tooth import GEAR_TOOTH, ToothWords
+from gearlube.report.numbers import number_text
 from gearlube_core.contact.solid import Solid
 from gearlube_core.dynamics.hypoid_axle.flank_states import flank_states
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
@@ -18,7 +20,7 @@ from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.rating.bevel_mesh import BevelMesh
 from gearlube_core.rating.gears import Gears, LoadFactors, StrengthRating
 from gearlube_core.rating.iso_10300 import bevel_rating
-from gearlube_core.rating.spectrum import Rate
+from gearlube_core.rating.spectrum import DutyBins, Rate
 from gearlube_core.units import ZERO_CELSIUS
 
 _AXLE = (
@@ -27,6 +29,17 @@ _AXLE = (
     "Flanks of hypoid gears slide everywhere: no place is without wear.",
     "Without film.bulk_resistance_k_w in the axle file the flanks are as warm as the oil.",
 )
+
+
+Row = tuple[str, ...]  # of the summary
+
+
+class Beside(NamedTuple):
+    """What a standard says of a life besides pitting and breakage."""
+
+    rows: list[Row]
+    outside: tuple[str, ...]  # limits that are exceeded, in words
+    notes: tuple[tuple[str, str], ...]  # headline and detail of findings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +70,10 @@ class Teeth:
         Words of the maps; size of the drawn tooth along and up [m].
     limits
         Sentences on what the solved numbers leave out.
+    withheld
+        Why there is no rating, in words; empty: the material of the gears decides.
+    beside
+        Return other rows of the summary for bins, gears and load factors; None: there are none.
     """
 
     name: str
@@ -73,6 +90,16 @@ class Teeth:
     drawn: ToothWords
     drawn_size: tuple[float, float]
     limits: tuple[str, ...]
+    withheld: str = ""
+    beside: Callable[[DutyBins, Gears | None, LoadFactors], Beside] | None = None
+
+
+def safety_row(
+    name: str, value: str, limit: str, safety: float, required: str, good: str, by: str
+) -> Row:
+    """Return a row of the summary whose verdict follows from the safety."""
+    verdict = good if safety >= 1.0 else "fails"
+    return name, value, limit, number_text(safety), required, verdict, by
 
 
 def axle_teeth(car: CarAxle, blank: HypoidBlank | None) -> Teeth:

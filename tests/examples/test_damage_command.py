@@ -8,13 +8,15 @@ from typer.testing import CliRunner
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube.report.stored import read_report
+from gearlube.studies.helical.settings import quick_settings
+from gearlube.studies.helical.stages import analyse_loaded_contact
 
 BINS = "torque_n_m,speed_rpm,temperature_degc,hours\n350,600,90,20\n-60,2500,80,100\n"
 LIMITS = ("--contact-limit-mpa", 1500, "--bending-limit-mpa", 430)
 
 
-def run(*arguments):
-    return CliRunner().invoke(cli.app, ["damage", "mohammadpour_2015", *map(str, arguments)])
+def run(*arguments, gears="mohammadpour_2015"):
+    return CliRunner().invoke(cli.app, ["damage", gears, *map(str, arguments)])
 
 
 @pytest.fixture
@@ -61,6 +63,38 @@ def test_one_limit_is_refused_with_an_example(bins, tmp_path, caplog):
     done = run("--cycle", bins, "--contact-limit-mpa", 1500, "--out", tmp_path / "out")
     assert done.exit_code == BAD_ARGUMENT
     assert "1500 and 430 MPa are an example" in caplog.text
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_pair_takes_a_table_of_bins(bins, tmp_path, monkeypatch):
+    def quick(settings, **given):
+        return analyse_loaded_contact(quick_settings(settings), **given)
+
+    monkeypatch.setattr("gearlube.damage.pair.analyse_loaded_contact", quick)
+    out = tmp_path / "out"
+    more = "--face-factor", 1.2, "--load-stage", 12, "--oil", "fva_3"
+    done = run("--cycle", bins, *LIMITS, *more, "--out", out, gears="he_2007")
+    assert done.exit_code == 0, done.output
+    found = {row["failure mode"]: row for row in rows(out, "summary.csv")}
+    assert float(found["breakage, pinion"]["safety"]) > 1.0
+    assert found["breakage, pinion"]["by"].startswith("ISO 6336-1, -2, -3:2006, method B")
+    assert float(found["scuffing: integral temperature"]["safety"]) > 1.0
+    given = [one[:2] for one in read_report(out)["inputs"]]
+    assert ["oil", "fva_3"] in given
+    assert ["pair.face_width_mm", "31.75"] in given
+
+
+def test_a_pair_and_an_axle_refuse_what_is_not_theirs(bins, tmp_path, caplog):
+    out = "--out", tmp_path / "out"
+    for gears, arguments, words in (
+        ("he_2007", (), "a vehicle cycle needs an axle"),
+        ("he_2007", ("--cycle", bins, "--gear-bearings-kn", 88), "works only with an axle"),
+        ("mohammadpour_2015", ("--cycle", bins, "--oil", "fva_3"), "only with a gear pair"),
+        ("he_2007", ("--cycle", bins, *LIMITS[:2]), "1500 and 430 MPa are an example"),
+    ):
+        caplog.clear()
+        assert run(*arguments, *out, gears=gears).exit_code == BAD_ARGUMENT
+        assert words in caplog.text
     assert not (tmp_path / "out").exists()
 
 

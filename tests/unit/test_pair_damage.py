@@ -1,0 +1,246 @@
+"""Damage of a helical pair over bins, beside its mesh loss, closed forms and the standards."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from drivetrain.axle_file.read_axle import read_axle
+from gearlube.damage.flank import flank_damage
+from gearlube.damage.pair import face_load, helical_teeth, is_pair, pair_settings
+from gearlube.damage.report import damage_report, findings
+from gearlube.damage.run import run_damage
+from gearlube.damage.settings import DamageSettings, rated_gears
+from gearlube.studies.helical.pair_losses import losses_dataset
+from gearlube.studies.helical.settings import quick_settings
+from gearlube_core.errors import ParameterError
+from gearlube_core.helical_contact.contact_dataset import HelicalContact
+from gearlube_core.helical_geometry.gear_file import HelicalGearFile
+from gearlube_core.rating.flank_load import FlankLoad, FlankOil
+from gearlube_core.rating.gears import LoadFactors
+from gearlube_core.rating.iso_6336 import cylindrical_rating
+from gearlube_core.rating.life import miner_sum
+from gearlube_core.rating.scuffing import flash_rating
+from gearlube_core.rating.spectrum import DutyBins
+
+K_WEAR = 5e-18  # 1/Pa
+FACTORS = LoadFactors(face=1.2)
+GEARS = rated_gears("case_hardened", 1500.0, 430.0)
+FILE = HelicalGearFile.named("he_2007")
+PAIR = FILE.helical_pair()
+
+
+def bins_of(*rows):
+    """Torque [N.m], speed [rad/s], temperature [K], hours."""
+    torque, speed, temperature, hours = np.array(rows).T
+    return DutyBins(torque, speed, temperature, 3600.0 * hours)
+
+
+BINS = bins_of((300.0, 262.0, 363.0, 2000.0), (450.0, 157.0, 363.0, 500.0))
+COAST = bins_of((-200.0, 262.0, 353.0, 500.0))
+
+
+def teeth_of(bins=BINS, file=FILE, film_model=None, **given):
+    """Return teeth on which all lines have one stiffness, so that their load is known."""
+    settings = pair_settings(file, bins, film_model=film_model)
+    mesh = settings.constant_mesh()
+    pressure = np.zeros((1, 1, mesh.lines + 2))
+    dataset = xr.Dataset({"pressure_max": (("phase", "torque", "line"), pressure)})
+    return settings, helical_teeth(settings, HelicalContact(dataset, mesh), **given)
+
+
+def damage_of(bins=BINS, teeth=None, **given):
+    return DamageSettings(
+        pair=teeth or teeth_of(bins, load_stage=12.0)[1], bins=bins, gears=GEARS, factors=FACTORS,
+        **given,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def whole():
+    return run_damage(damage_of(wear_coefficient=K_WEAR))
+
+
+@pytest.mark.parametrize("film", ["formula", "solved"])
+@pytest.mark.parametrize("torque", [300.0, -200.0])
+def test_friction_of_the_flanks_is_the_mesh_loss(torque, film):
+    bins = bins_of((torque, 262.0, 363.0, 1.0))
+    settings, teeth = teeth_of(bins, film_model=film)
+    lost = losses_dataset(
+        replace(settings, parts="losses", torques=(abs(torque),), speeds=(262.0,), draws=0),
+        settings.constant_mesh(),
+    )
+    found = teeth.states(torque, 262.0, 363.0)
+    # 96 phases and 96 strips beside 48 phases and 16 Gauss points of each line
+    expected = float(lost["loss"].sel(part="sliding").squeeze())
+    assert found.friction_power == pytest.approx(expected, rel=2e-3)
+
+
+def test_strips_carry_the_torque_under_the_pressure_of_hertz():
+    states = teeth_of()[1].states(300.0, 262.0, 363.0)
+    force = 300.0 / (PAIR.pinion_base_radius * math.cos(PAIR.base_helix_angle))
+    # rigid bodies: every phase carries the whole force
+    assert states.load.sum() * states.share_of_time == pytest.approx(force, rel=1e-9)
+    # Hertz: p = (w E'/(2 pi R))^(1/2), with E'/2 = E/(1 - nu^2)/2 of equal steels and
+    # R = r1 r2/(r1 + r2)/cos(beta_b) of the transverse radii
+    i = int(states.pressure.argmax())
+    r1 = PAIR.contact_start + states.place[i, 1]
+    R = r1 * (PAIR.tangent_length - r1) / PAIR.tangent_length / math.cos(PAIR.base_helix_angle)
+    solid = teeth_of()[1].solid
+    E = float(solid.youngs_modulus) / (1.0 - float(solid.poisson_ratio) ** 2) / 2.0
+    expected = math.sqrt(states.line_load[i] * E / (math.pi * R))
+    assert states.pressure[i] == pytest.approx(expected, rel=1e-9)
+    assert ((states.place >= 0.0) & (states.place <= [PAIR.face_width, 0.0135])).all()
+
+
+def test_wear_vanishes_at_the_pitch_point_and_goes_inversely_with_the_speeds():
+    teeth = teeth_of()[1]
+    states = teeth.states(300.0, 262.0, 363.0)
+    found = flank_damage(states, teeth.solid, K_WEAR)
+    # the faster surface passes the contact sooner: h_1/h_2 = u_2/u_1 = r_2/(u r_1)
+    r1 = PAIR.contact_start + states.place[:, 1]
+    expected = (PAIR.tangent_length - r1) / PAIR.ratio / r1
+    np.testing.assert_allclose(found.pinion_wear / found.gear_wear, expected, rtol=1e-9)
+    away = np.abs(r1 - PAIR.pitch_point)
+    # sliding rises from zero in proportion to the way from the pitch point: 1 % of the path
+    near = away < 0.01 * (PAIR.contact_end - PAIR.contact_start)
+    assert near.any()
+    assert found.pinion_wear[near].max() < 0.03 * found.pinion_wear.max()
+
+
+def test_stress_and_damage_are_those_of_the_standard(whole):
+    nu = float(damage_of().teeth.oil.state(313.15).nu)
+    for i, (torque, speed, _, time) in enumerate(zip(*BINS, strict=True)):
+        rating = cylindrical_rating(
+            PAIR, GEARS, FACTORS, pinion_torque=torque, pinion_speed=speed, cycles=(1.0, 1.0),
+            oil_viscosity=nu,
+        )  # fmt: skip
+        expected = 1e-6 * np.array(rating.contact_stress)
+        np.testing.assert_allclose(whole["contact_stress"].values[i], expected, rtol=1e-9)
+        turns = speed * time / (2.0 * math.pi)
+        for member, cycles in enumerate((turns, turns * 25.0 / 31.0)):
+            line, stress = rating.contact_lines[member], rating.contact_stress[member]
+            expected = float(miner_sum(line, stress, cycles))
+            assert whole["contact_damage"].values[i, member] == pytest.approx(expected, rel=1e-9)
+    assert float(whole["contact_damage"].sum()) > 0.0
+    row = next(one for one in json.loads(whole.attrs["summary"]) if one[0].startswith("pitting"))
+    assert row[6].startswith("ISO 6336-1, -2, -3:2006, method B")
+    newer = damage_of(teeth=teeth_of(edition="2019")[1])
+    assert newer.teeth.standard.startswith("ISO 6336-1, -2, -3:2019")
+
+
+def test_scuffing_is_that_of_the_standard_at_the_worst_bin(whole):
+    rows = {row[0]: row for row in json.loads(whole.attrs["summary"])}
+    settings = damage_of()
+    safety = []
+    for torque, speed, temperature in zip(*BINS[:3], strict=True):
+        oil = FlankOil.of(settings.teeth.oil, temperature=temperature, load_stage=12.0)
+        load = FlankLoad.of(settings.rate(torque, speed, temperature), PAIR, GEARS, oil)
+        safety.append(flash_rating(load, friction=load.mean_friction).safety)
+    row = rows["scuffing: flash temperature"]
+    assert float(row[3]) == pytest.approx(min(safety), rel=5e-3)  # three digits
+    assert row[6].startswith("ISO/TS 6336-20:2017")
+    assert "scuffing: integral temperature" in rows
+    assert rows["micropitting: specific film of the standard"][5] == "no limit given"
+    assert any("torque of the load stage" in one.headline for one in findings(whole))
+
+
+def test_what_is_missing_is_withheld_in_words():
+    def verdicts(settings):
+        return {row[0]: row[5] for row in json.loads(run_damage(settings).attrs["summary"])}
+
+    found = verdicts(damage_of(teeth=teeth_of()[1]))
+    assert "load stage" in found["scuffing: flash temperature"]
+    found = verdicts(DamageSettings(pair=teeth_of(load_stage=12.0)[1], bins=BINS))
+    assert "limits" in found["scuffing: integral temperature"]
+    assert not any(one.startswith(("pitting", "breakage", "bearing")) for one in found)
+
+
+def test_short_teeth_have_no_rating_but_all_else():
+    short = FILE.varied({"pinion.tip_diameter_mm": 82.2, "gear.tip_diameter_mm": 101.3})
+    settings = damage_of(teeth=teeth_of(file=short, load_stage=12.0)[1])
+    assert settings.rate is None
+    found = run_damage(settings)
+    assert float(found["pressure"].min()) > 0.0
+    assert "contact_damage" not in found
+    told = [one.headline for one in findings(found) if one.level == "warning"]
+    assert any("transverse contact ratio must be within 1 to 4, got 0.699" in one for one in told)
+
+
+def test_coast_flanks_bear_as_drive_flanks_do():
+    coast, drive = (
+        run_damage(damage_of(COAST._replace(torque=sign * COAST.torque))) for sign in (1.0, -1.0)
+    )
+    assert float(coast["pressure_map"].sel(side="drive").max()) == 0.0
+    both = coast["pressure_map"].sel(side="coast"), drive["pressure_map"].sel(side="drive")
+    np.testing.assert_array_equal(*both)
+
+
+def test_lines_pass_every_place_of_the_plane_of_contact(whole):
+    """All places have pressure, heat vanishes in the row of the pitch point."""
+    assert float(whole["pressure_map"].sel(side="drive").min()) > 0.0
+    up, heat = whole["up"].values, whole["heat_map"].sel(side="drive")
+    row = int(np.abs(up - 1e3 * (PAIR.pitch_point - PAIR.contact_start)).argmin())
+    assert float(heat[row].max()) < 0.1 * float(heat.max())
+
+
+def test_solved_line_loads_give_their_own_face_factor():
+    """Even lines have the factor 1, a linear load from 0.8 to 1.2 along the face has 1.2."""
+    states = teeth_of()[1].states(300.0, 262.0, 363.0)
+    tilt = 0.8 + 0.4 * states.place[:, 0] / PAIR.face_width
+    assert face_load(states)[0] == pytest.approx(1.0, rel=1e-9)
+    face, _ = face_load(states._replace(load=states.load * tilt))
+    # 1.196 in the middle of the last strip; lines near an end are short and have its load alone
+    assert face == pytest.approx(1.196, rel=0.03)
+
+
+def test_files_figures_and_report(tmp_path):
+    found = run_damage(damage_of(wear_coefficient=K_WEAR), folder=tmp_path)
+    assert {path.stem for path in (tmp_path / "figures").iterdir()} == {"maps_drive", "bins"}
+    kept = xr.load_dataset(tmp_path / "damage.nc")
+    assert "bearing" not in kept.dims
+    report = damage_report(found, tmp_path / "figures")
+    assert report.title == "Damage of he_2007"
+    assert "plane of contact" in report.figures[0].caption
+    assert any("K_Hβ is 1.20 in the standard and 1.00" in one.headline for one in report.findings)
+    assert not any("hypoid" in one for one in report.limits)
+
+
+@pytest.mark.slow
+def test_a_torque_between_two_solved_ones_has_the_loads_of_its_own_solution():
+    settings = quick_settings(pair_settings(FILE, BINS))
+    between = helical_teeth(settings, jobs=2).states(260.0, 262.0, 363.0)
+    own = replace(settings, torques=(260.0, 450.0))
+    exact = helical_teeth(own, jobs=2).states(260.0, 262.0, 363.0)
+    assert between.friction_power == pytest.approx(exact.friction_power, rel=0.01)
+    # the load along a line bends with the torque, little between two levels
+    assert float(between.pressure.max()) == pytest.approx(float(exact.pressure.max()), rel=0.03)
+
+
+def test_bad_settings_are_refused():
+    with pytest.raises(ParameterError, match="must not be 0"):
+        pair_settings(FILE, bins_of((0.0, 157.0, 363.0, 1.0)))
+    bounded = replace(teeth_of()[1], torques=(-450.0, 450.0))
+    with pytest.raises(ParameterError, match=r"torque of a bin .* got 500 N.m.*solved up to there"):
+        DamageSettings(pair=bounded, bins=bins_of((500.0, 157.0, 363.0, 1.0)))
+    with pytest.raises(ParameterError, match="got both"):
+        DamageSettings(pair=bounded, car=read_axle("mohammadpour_2015"), bins=BINS)
+    with pytest.raises(ParameterError, match="got neither"):
+        DamageSettings(bins=BINS)
+    with pytest.raises(ParameterError, match="edition"):
+        teeth_of(edition="1996")
+    with pytest.raises(ParameterError, match="load_stage"):
+        teeth_of(load_stage=40.0)
+
+
+def test_gear_files_of_pairs_are_known_from_axles(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("[pair]\ncentre_distance_mm = 88.9\n")
+    assert is_pair("he_2007")
+    assert is_pair(str(path))
+    path.write_text("[gear_set]\nmesh_table = 'a.nc'\n")
+    assert not is_pair(str(path))
+    assert not is_pair(str(tmp_path / "missing.toml"))
