@@ -166,16 +166,6 @@ class BearingLife(NamedTuple):
         return self.basic / per_hour, self.modified / per_hour
 
 
-def _contamination(cleanliness: str | tuple[float, float], kappa: float, D: float) -> float:
-    """Return e_C [-] = min(1, A kappa^0.68 D^0.55) (1 - B/D^(1/3)) of a pitch diameter [mm]."""
-    if isinstance(cleanliness, str):
-        check_option("cleanliness", cleanliness, CLEANLINESS)
-        cleanliness = CLEANLINESS[cleanliness]
-    A, B = cleanliness
-    clean = min(1.0, A * min(kappa, _MOST_KAPPA) ** 0.68 * D**0.55)
-    return max(clean * (1.0 - B / D ** (1.0 / 3.0)), 0.0)
-
-
 def equivalent_load(
     radial: float, axial: float, *, contact_angle: float = 0.0, catalogue: Array | None = None
 ) -> float:
@@ -209,8 +199,8 @@ def bearing_life(
 
     Slices: L = [sum (q_ci/q_ei)^-4.5 + (q_ce/q_ee)^-4.5]^(-8/9), q_c = Q_c n^(-7/9), with the means
     q_e of the loads of all rollers. A slice's a_ISO is that of a bearing with all slices alike.
-    ParameterError where loads or viscosity are missing or impossible. Source: [iso_281];
-    [iso_16281].
+    e_C = min(1, A kappa^0.68 D^0.55) (1 - B/D^(1/3)) of a pitch diameter D in mm. ParameterError
+    where loads or viscosity are missing or impossible. Source: [iso_281]; [iso_16281].
 
     Parameters
     ----------
@@ -255,7 +245,11 @@ def bearing_life(
     n, D = rads_to_rpm(speed), 1e3 * bearing.pitch_diameter
     nu_1 = 1e-6 * (45000.0 * n**-0.83 if n < 1000.0 else 4500.0 * n**-0.5) / math.sqrt(D)
     kappa = max(film_ratio or 0.0, 0.0) ** 1.3 if viscosity is None else viscosity / nu_1
-    e_C = _contamination(cleanliness, kappa, D)
+    if isinstance(cleanliness, str):
+        cleanliness = CLEANLINESS[check_option("cleanliness", cleanliness, CLEANLINESS)]
+    A, B = cleanliness
+    clean = min(1.0, A * min(kappa, _MOST_KAPPA) ** 0.68 * D**0.55)
+    e_C = max(clean * (1.0 - B / D ** (1.0 / 3.0)), 0.0)
     with_ep = additives and kappa < 1.0 and e_C >= _CLEAN_EP
     used = 1.0 if with_ep else min(kappa, _MOST_KAPPA)
     outside = []

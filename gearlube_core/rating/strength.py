@@ -163,17 +163,15 @@ def strength_rating(
     sigma_F0 = both(lambda form, rim: sigma_F * form.Y_F * form.Y_S * rim, forms, Y_B)
     loads = shock * K["K_v"] * K["K_Fb"] * K["K_Fa"] / MPA
     contact, of_film, missing = _contact_lines(gears, *film)
-    roots = both(lambda g, form: _root_factors(g, form.q_s, module), gears, forms)
+    q_s = both(lambda form: form.q_s, forms)
+    roots = both(lambda g, q: _root_factors(g, q, module), gears, q_s)
     first, second = (form._asdict() | root for form, root in zip(forms, roots, strict=True))
     limits = both(lambda g, root: 2.0 * g.bending_limit * math.prod(root.values()), gears, roots)
     bending = both(lambda g, limit: strength_line(g.bending_life, limit, 1.0), gears, limits)
     R_z = both(lambda g: UM * g.root_roughness, gears)
     from_memory = [g.slip_layer is None and g.steel in _LAYERS for g in gears]
     notched = said(
-        *(
-            (1.0 <= f.q_s < 8.0, f"notch parameter q_s within 1 to 8, got {f.q_s:.2f}")
-            for f in forms
-        ),
+        *((1.0 <= q < 8.0, f"notch parameter q_s within 1 to 8, got {q:.2f}") for q in q_s),
         *((one <= 40.0, f"root roughness R_z up to 40 um, got {one:.0f} um") for one in R_z),
         (not any(from_memory), "the slip layer rho' of this steel is from memory; give slip_layer"),
     )
