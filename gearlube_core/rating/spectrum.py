@@ -67,11 +67,17 @@ def duty_bins(
     """
     for name, width in zip(("torque", "speed", "temperature"), widths, strict=True):
         check_positive(f"width of {name}", width, "", "A bin needs a width.")
-    time, torque, speed = (np.asarray(one, dtype=float) for one in (time, torque, speed))
-    heat = np.broadcast_to(np.asarray(temperature, dtype=float), time.shape)
-    samples = (time, torque, speed, heat)
-    if not time.size or any(one.shape != time.shape for one in samples):
-        raise ParameterError(f"time, torque and speed must have one shape (n,), got {time.shape}.")
+    samples = [np.asarray(one, dtype=float) for one in (time, torque, speed, temperature)]
+    if samples[3].ndim == 0:
+        samples[3] = np.full(samples[0].shape, samples[3])
+    shapes = {one.shape for one in samples}
+    if len(shapes) > 1 or samples[0].ndim != 1 or not samples[0].size:
+        found = ", ".join(str(one.shape) for one in samples)
+        raise ParameterError(
+            f"time, torque, speed and temperature must have one shape (n,), got {found}. Give each "
+            "sample of the cycle all four, or one temperature."
+        )
+    time, torque, speed, heat = samples
     if not all(np.isfinite(one).all() for one in samples) or (time < 0.0).any():
         raise ParameterError(
             "A cycle must have finite numbers and durations that are not negative."

@@ -124,7 +124,8 @@ def test_damage_of_a_gear_pair_over_bins_runs_by_its_standard():
     ("changes", "words"),
     [
         ({"time": np.array([1.0, -1.0])}, "durations that are not negative"),
-        ({"torque": np.ones(3)}, "one shape"),
+        ({"torque": np.ones(3)}, r"one shape \(n,\), got \(2,\), \(3,\), \(2,\), \(2,\)"),
+        ({"temperature": np.full(3, 330.0)}, r"one shape \(n,\), got .* \(3,\)\. Give each"),
         ({"speed": np.array([1.0, math.nan])}, "finite numbers"),
         ({"widths": (0.0, 1.0, 1.0)}, "width of torque must be above 0"),
     ],
