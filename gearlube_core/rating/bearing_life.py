@@ -214,10 +214,8 @@ def bearing_life(
     viscosity, film_ratio
         Kinematic, at the temperature of the raceway [m2/s], or least film over composite roughness
         of raceway and element; kappa is its power 1.3, not checked against the source.
-    reliability
-        90, 95 to 99 [%].
-    additives
-        Whether proven EP additives let kappa below 1 count as 1.
+    reliability, additives
+        90, 95 to 99 [%]; whether proven EP additives let kappa below 1 count as 1.
     inner_turns
         Whether the inner ring turns relative to the load.
     end_loads

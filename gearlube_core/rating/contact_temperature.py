@@ -76,17 +76,14 @@ def contact_temperature(
             f"x must increase and have one more place than heat, got {x.shape} and {heat.shape}."
         )
     u1, u2 = (np.asarray(u, dtype=float) for u in speeds)
+    backwards = bool((u1 < 0.0).all() and (u2 < 0.0).all())
+    if backwards:
+        x, heat, u1, u2 = -x[::-1], heat[::-1], -u1, -u2
     if not ((u1 > 0.0).all() and (u2 > 0.0).all()):
-        if not ((u1 < 0.0).all() and (u2 < 0.0).all()):
-            raise ParameterError(
-                f"All speeds must have one sign and not be 0, got {u1} and {u2} m/s. Take them "
-                "relative to the line of contact."
-            )
-        turned = contact_temperature(
-            -x[::-1], heat[::-1], (-u1, -u2), bulk,
-            half_width=half_width, effusivity=effusivity, diffusivity=diffusivity,
-        )  # fmt: skip
-        return turned._replace(temperature=turned.temperature[::-1])
+        raise ParameterError(
+            f"All speeds must have one sign and not be 0, got {u1} and {u2} m/s. Take them "
+            "relative to the line of contact."
+        )
     a = np.asarray(half_width)
     first, second = effusivity[0] * np.sqrt(u1), effusivity[1] * np.sqrt(u2)
     T_M = (first * bulk[0] + second * bulk[1]) / (first + second)
@@ -96,7 +93,8 @@ def contact_temperature(
     peclet = np.minimum(u1, u2) * 0.25 * (x[-1] - x[0]) * a / diffusivity
     least = float(peclet.min())
     outside = () if least > 5.0 else (f"Peclet number above 5, got {least:.2g}",)
-    return ContactTemperature(T_M + rise, T_M, peclet, outside)
+    found = T_M + rise
+    return ContactTemperature(found[::-1] if backwards else found, T_M, peclet, outside)
 
 
 def scuffing_probability(contact: float, scuffing: float, *, spread: float = 0.15) -> float:

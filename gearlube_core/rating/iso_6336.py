@@ -37,10 +37,8 @@ def cylindrical_rating(
         `fillet_factor`; their material; K factors.
     pinion_torque, pinion_speed
         [N.m], [rad/s], both above 0.
-    cycles
-        Of load on a tooth of pinion and gear [-].
-    oil_viscosity
-        At 40 degC [m2/s].
+    cycles, oil_viscosity
+        Of load on a tooth of pinion and gear [-]; at 40 degC [m2/s].
     tip_relief, blank_factor
         C_a of both members together [m], None: what running-in takes off; C_R of the gear bodies
         [-], see `iso_stiffness`.

@@ -40,9 +40,9 @@ _SMALL = 1e-9  # a damage that counts as none
 def strength_line(factors: Line, limit: float, influence: float) -> Line:
     """Return the strength over cycles, in the unit of the limit.
 
-    Of life factors, such as `PITTING["case_hardened"]`, the endurance limit at a factor of 1, and
-    the product of all other factors of the strength [-]: the influence of lubrication, size and
-    roughness. The first point, the static strength, has none of it, the others have all.
+    `factors` are life factors such as `PITTING["case_hardened"]`, `limit` is the endurance limit at
+    a factor of 1, `influence` the product of all other factors [-], of lubrication, size and
+    roughness. The first point, the static strength, is not influenced; the others are fully.
     """
     (n, static), *others = factors
     return ((n, limit * static), *((m, limit * influence * factor) for m, factor in others))

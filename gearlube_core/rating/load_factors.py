@@ -47,8 +47,8 @@ def dynamic_factor(
     """Return K_v of method B [-] at a speed N over that of resonance; [iso_6336_1], [iso_10300_1].
 
     `contact_ratio` is epsilon_gamma, `shares` are B_p, B_f, B_k of pitch and profile deviation and
-    tip relief. The range of the main resonance begins and ends at `main`; above it K_v falls to N
-    of 1.5.
+    tip relief. The range of the main resonance begins and ends at `main`; above it K_v falls
+    until N is 1.5.
     """
     (B_p, B_f, B_k), e = shares, contact_ratio
     C_2, C_3, C_4, C_6 = 0.34, 0.23, 0.90, 0.47
