@@ -155,22 +155,16 @@ def damage(
         limits = treatment, contact_limit_mpa, bending_limit_mpa
         car = blank = teeth = None
         pair = is_pair(gear_set)
-        check_options(
-            pair,
-            {
-                "--gears": gears or None,
-                "--pinion-bearings-kn": pinion_bearings_kn,
-                "--gear-bearings-kn": gear_bearings_kn,
-                "--cleanliness": cleanliness,
-                "--raceway-roughness-um": raceway_roughness_um,
-            },
-            {
-                "--oil": oil,
-                "--roughness-um": roughness_um,
-                "--load-stage": load_stage,
-                "--edition": edition,
-            },
-        )
+        of_axle = {
+            "--gears": gears or None, "--cleanliness": cleanliness,
+            "--pinion-bearings-kn": pinion_bearings_kn, "--gear-bearings-kn": gear_bearings_kn,
+            "--raceway-roughness-um": raceway_roughness_um,
+        }  # fmt: skip
+        of_pair = {
+            "--oil": oil, "--roughness-um": roughness_um, "--load-stage": load_stage,
+            "--edition": edition,
+        }  # fmt: skip
+        check_options(pair, of_axle, of_pair)
         if pair:
             file = HelicalGearFile.given(gear_set)
             material, inputs_of = rated_gears(*limits), file_inputs(file)

@@ -16,7 +16,7 @@ from gearlube.damage.figures import damage_figures
 from gearlube.damage.flank import HIGH, WIDE, flank_damage, tooth_maps
 from gearlube.damage.settings import DamageSettings
 from gearlube.damage.summary import SUMMARY_HEAD, summary_rows
-from gearlube.damage.teeth import Beside, Teeth
+from gearlube.damage.teeth import Teeth
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.cycle import variables_of
@@ -115,9 +115,7 @@ def run_damage(
         "cycles": (_MEMBER, cycles, "1", "load cycles of a tooth"),
         **{name: (at, values[name], *words) for name, (at, *words) in shown.items()},
     }
-    beside = Beside([], (), ())
-    if teeth.beside is not None:
-        beside = teeth.beside(bins, settings.gears, settings.factors)
+    beside = teeth.beside(bins, settings.gears, settings.factors)
     if rate is not None:
         progress(0.9, "torque factors")
         damage, factors = _torque_factors(bins, rate, ratio)
@@ -202,6 +200,7 @@ def _solved(
             for line, n in zip(rating.contact_lines, cycles, strict=True)
         ]
     hottest = int(found.flash.argmax())
+    bearings = states.bearings and _bearings(settings, teeth, states.bearings, place, cycles)
     film = maps["film"]
     return {
         "on_coast": states.carried < 0.0,
@@ -216,7 +215,7 @@ def _solved(
         "wear": [one.max() for one in wear],
         "contact_stress": [1e-6 * one for one in stress],
         "local_damage": [one.max() for one in local],
-        **_bearings(settings, teeth, states.bearings, place, cycles),
+        **(bearings or {}),
         "pressure_map": 1e-9 * maps["pressure"],
         "thin_map": np.divide(1.0, film, out=np.zeros_like(film), where=film > 0.0),
         "flash_map": maps["flash"],
@@ -227,16 +226,10 @@ def _solved(
 
 
 def _bearings(
-    settings: DamageSettings,
-    teeth: Teeth,
-    bearings: BearingStates | None,
-    place: int,
-    cycles: Array,
+    settings: DamageSettings, teeth: Teeth, bearings: BearingStates, place: int, cycles: Array
 ) -> dict[str, Any]:
     """Return loads and shares of basic and modified life of the bearings; no number: not known."""
-    if bearings is None:
-        return {}
-    speed, temperature = float(settings.bins.speed[place]), float(settings.bins.temperature[place])
+    speed, temperature = (float(one[place]) for one in settings.bins[1:3])
     used = np.full((2, 4), np.nan)
     for k, loads in enumerate(bearings.rollers):
         rated = settings.bearings[k // 2]

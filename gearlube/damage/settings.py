@@ -110,8 +110,7 @@ class DamageSettings(Checked):
     @property
     def rate(self) -> Rate | None:
         """The standard's rating over torque [N.m], speed [rad/s], temperature [K]; None: none."""
-        rate = self.teeth.rate
-        return None if rate is None or self.gears is None else rate(self.gears, self.factors)
+        return None if self.gears is None else self.teeth.rate(self.gears, self.factors)
 
 
 def rated_gears(

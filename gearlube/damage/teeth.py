@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -42,56 +42,43 @@ class Beside(NamedTuple):
     notes: tuple[tuple[str, str], ...]  # headline and detail of findings
 
 
-@dataclass(frozen=True, kw_only=True)
-class Teeth:
-    """Teeth that mesh, of an axle or of a pair: all that a damage run takes of them.
-
-    Parameters
-    ----------
-    name
-        Of the axle or the pair.
-    ratio
-        Teeth of the gear over those of the pinion [-].
-    oil, solid
-        Oil, and material of both flanks.
-    film
-        Where the films come from: "formula" or "solved".
-    torques, cure
-        Least and largest torque of the pinion that the model takes [N.m], and what to do beyond.
-    solved_torque
-        Up to which the contact is solved [N.m].
-    states
-        Return the flanks at torque [N.m], speed of the pinion [rad/s], oil temperature [K].
-    rate
-        Return the standard's rating of a bin for gears and load factors; None: there is none.
-    standard
-        Of the rating, with edition and method.
-    drawn, drawn_size
-        Words of the maps; size of the drawn tooth along and up [m].
-    limits
-        Sentences on what the solved numbers leave out.
-    withheld
-        Why there is no rating, in words; empty: the material of the gears decides.
-    beside
-        Return other rows of the summary for bins, gears and load factors; None: there are none.
-    """
+class Teeth(NamedTuple):
+    """Teeth that mesh, of an axle or of a pair: all that a damage run takes of them."""
 
     name: str
-    ratio: float
+    ratio: float  # teeth of the gear over those of the pinion [-]
     oil: Lubricant
-    solid: Solid
-    film: str
-    torques: tuple[float, float]
-    cure: str
-    solved_torque: float
-    states: Callable[[float, float, float], FlankStates]
-    rate: Callable[[Gears, LoadFactors], Rate] | None
-    standard: str
+    solid: Solid  # of both flanks
+    film: str  # "formula" or "solved"
+    torques: tuple[float, float]  # least and largest of the pinion that the model takes [N.m]
+    cure: str  # what to do beyond
+    solved_torque: float  # up to which the contact is solved [N.m]
+    states: Callable[[float, float, float], FlankStates]  # of torque, speed, oil temperature
+    # by a standard, of the flank that a torque loads; takes what `cylindrical_rating` takes
+    rating: Callable[[float], Callable[..., StrengthRating]] | None
+    standard: str  # with edition and method
     drawn: ToothWords
-    drawn_size: tuple[float, float]
-    limits: tuple[str, ...]
-    withheld: str = ""
-    beside: Callable[[DutyBins, Gears | None, LoadFactors], Beside] | None = None
+    drawn_size: tuple[float, float]  # along and up [m]
+    limits: tuple[str, ...]  # what the solved numbers leave out
+    withheld: str = ""  # why nothing is rated
+    beside: Callable[[DutyBins, Gears | None, LoadFactors], Beside] = lambda *given: Beside(
+        [], (), ()
+    )
+
+    def rate(self, gears: Gears, factors: LoadFactors) -> Rate | None:
+        """Return the standard's rating over torque, speed, temperature; None: it is withheld."""
+        rating = self.rating
+        if rating is None:
+            return None
+        nu = float(self.oil.state(ZERO_CELSIUS + 40.0).nu)
+
+        def rated(torque: float, speed: float, temperature: float) -> StrengthRating:
+            return rating(torque)(
+                gears=gears, factors=factors, pinion_torque=abs(torque), pinion_speed=speed,
+                cycles=(1.0, 1.0), oil_viscosity=nu,
+            )  # fmt: skip
+
+        return rated
 
 
 def safety_row(
@@ -120,10 +107,9 @@ def axle_teeth(car: CarAxle, blank: HypoidBlank | None) -> Teeth:
     1.01
     """
     axle, limits = car.axle, torque_limits(car.axle)
-
-    def states(torque: float, speed: float, temperature: float) -> FlankStates:
-        return flank_states(axle, torque=torque, speed=speed, temperature=temperature)
-
+    meshes = [] if blank is None else [
+        BevelMesh.of_blank(blank, flank=side) for side in ("drive", "coast")
+    ]  # fmt: skip
     return Teeth(
         name=car.name,
         ratio=float(axle.mesh.ratio),
@@ -133,26 +119,14 @@ def axle_teeth(car: CarAxle, blank: HypoidBlank | None) -> Teeth:
         torques=(limits.pinion_low, limits.pinion_high),
         cure=limits.cure,
         solved_torque=float(np.abs(axle.mesh.torque).max()),
-        states=states,
-        rate=None if blank is None else _bevel_rate(blank, axle.oil),
+        states=lambda torque, speed, temperature: flank_states(
+            axle, torque=torque, speed=speed, temperature=temperature
+        ),
+        rating=(lambda torque: partial(bevel_rating, meshes[int(torque < 0.0)]))
+        if meshes
+        else None,
         standard="ISO 10300-2, -3:2023, method B1",
         drawn=GEAR_TOOTH,
         drawn_size=axle.mesh.tooth_size or (1.0, 1.0),
         limits=_AXLE,
     )
-
-
-def _bevel_rate(blank: HypoidBlank, oil: Lubricant) -> Callable[[Gears, LoadFactors], Rate]:
-    meshes = {side: BevelMesh.of_blank(blank, flank=side) for side in ("drive", "coast")}
-    nu = float(oil.state(ZERO_CELSIUS + 40.0).nu)
-
-    def of_gears(gears: Gears, factors: LoadFactors) -> Rate:
-        def rated(torque: float, speed: float, temperature: float) -> StrengthRating:
-            return bevel_rating(
-                meshes["coast" if torque < 0.0 else "drive"], gears, factors,
-                pinion_torque=abs(torque), pinion_speed=speed, cycles=(1.0, 1.0), oil_viscosity=nu,
-            )  # fmt: skip
-
-        return rated
-
-    return of_gears

@@ -10,12 +10,13 @@ import xarray as xr
 
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.damage.flank import flank_damage
-from gearlube.damage.pair import face_load, helical_teeth, is_pair, pair_settings
+from gearlube.damage.pair import helical_teeth, is_pair, pair_settings
 from gearlube.damage.report import damage_report, findings
 from gearlube.damage.run import run_damage
 from gearlube.damage.settings import DamageSettings, rated_gears
 from gearlube.studies.helical.pair_losses import losses_dataset
 from gearlube.studies.helical.settings import quick_settings
+from gearlube_core.dynamics.helical_pair.flank_states import face_load
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.contact_dataset import HelicalContact
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
@@ -191,10 +192,14 @@ def test_solved_line_loads_give_their_own_face_factor():
     """Even lines have the factor 1, a linear load from 0.8 to 1.2 along the face has 1.2."""
     states = teeth_of()[1].states(300.0, 262.0, 363.0)
     tilt = 0.8 + 0.4 * states.place[:, 0] / PAIR.face_width
-    assert face_load(states)[0] == pytest.approx(1.0, rel=1e-9)
-    face, _ = face_load(states._replace(load=states.load * tilt))
-    # 1.196 in the middle of the last strip; lines near an end are short and have its load alone
-    assert face == pytest.approx(1.196, rel=0.03)
+    assert face_load(PAIR, states)[0] == pytest.approx(1.0, rel=1e-9)
+    face, _ = face_load(PAIR, states._replace(load=states.load * tilt))
+    # 1.198 in the middle of the last strip; lines near an end are short and have its load alone
+    assert face == pytest.approx(1.198, rel=0.03)
+    # a third of the face that bears nothing: the rest carries 3/2 of the mean, at the same force
+    bears = states.place[:, 0] > PAIR.face_width / 3.0
+    load = np.where(bears, states.load, 0.0) * states.load.sum() / states.load[bears].sum()
+    assert face_load(PAIR, states._replace(load=load))[0] == pytest.approx(1.5, rel=0.03)
 
 
 def test_files_figures_and_report(tmp_path):
@@ -223,7 +228,7 @@ def test_a_torque_between_two_solved_ones_has_the_loads_of_its_own_solution():
 def test_bad_settings_are_refused():
     with pytest.raises(ParameterError, match="must not be 0"):
         pair_settings(FILE, bins_of((0.0, 157.0, 363.0, 1.0)))
-    bounded = replace(teeth_of()[1], torques=(-450.0, 450.0))
+    bounded = teeth_of()[1]._replace(torques=(-450.0, 450.0))
     with pytest.raises(ParameterError, match=r"torque of a bin .* got 500 N.m.*solved up to there"):
         DamageSettings(pair=bounded, bins=bins_of((500.0, 157.0, 363.0, 1.0)))
     with pytest.raises(ParameterError, match="got both"):

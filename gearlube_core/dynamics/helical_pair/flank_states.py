@@ -22,25 +22,16 @@ _LEAST_LOAD = 1e-6  # of the largest, above what rounding leaves
 
 
 def helical_flank_states(
-    pair: HelicalPair,
-    mesh: LineMesh,
-    film: FilmFriction,
-    *,
-    torque: float,
-    speed: float,
-    temperature: float,
-    highest: Array | None = None,
-) -> FlankStates:
+    pair: HelicalPair, mesh: LineMesh, film: FilmFriction, *,
+    torque: float, speed: float, temperature: float, highest: Array | None = None,
+) -> FlankStates:  # fmt: skip
     """Return the flanks of a pair at strips of its contact lines.
 
     Parameters
     ----------
-    pair
-        Helical or spur gears.
-    mesh
-        Their loaded contact lines, as of `analyse_contact`.
-    film
-        Oil, roughness, law of friction and film model; its temperature is not used.
+    pair, mesh, film
+        Helical or spur gears, their loaded contact lines as of `analyse_contact`; oil, roughness,
+        law of friction and film model, whose oil temperature is not used.
     torque, speed, temperature
         Of the pinion, below 0 for the coast flanks [N.m]; its speed [rad/s]; oil [K].
     highest
@@ -54,20 +45,20 @@ def helical_flank_states(
 
     Notes
     -----
-    Film and friction are those of `FilmFriction.covered_cycle`, and so is their power. Each point
-    of the plane of contact is passed once. Both sides of a tooth have one form, so that the coast
-    flanks bear as the drive flanks do. Below the least torque of the mesh the load is divided as
-    there. Places are on the plane of contact: along the face, and along the path from A.
+    Film, friction and their power are those of `FilmFriction.covered_cycle`. Each point of the
+    plane of contact is passed once. Both sides of a tooth have one form: coast flanks bear as drive
+    flanks do. Below the least torque of the mesh the load is divided as there. Places are along the
+    face, and along the path of contact from A.
 
     Examples
     --------
     >>> import gearlube as gl
-    >>> settings = gl.HelicalSettings(
+    >>> of = gl.HelicalSettings(
     ...     file=gl.HelicalGearFile.named("he_2007"), pinion_torque=200.0, pinion_speed=100.0
     ... )
     >>> found = helical_flank_states(
-    ...     settings.file.helical_pair(), settings.constant_mesh(), settings.film(),
-    ...     torque=200.0, speed=100.0, temperature=353.15,
+    ...     of.file.helical_pair(), of.constant_mesh(), of.film(), torque=200.0, speed=100.0,
+    ...     temperature=353.15,
     ... )
     >>> round(1e-9 * float(found.pressure.max()), 2)  # GPa
     0.77
@@ -114,6 +105,19 @@ def helical_flank_states(
         bearings=None,
         strips=True,
     )
+
+
+def face_load(pair: HelicalPair, states: FlankStates) -> tuple[float, float]:
+    """Return greatest over mean line load: along the face over a mesh period, and anywhere [-].
+
+    Along the face the load of a place counts over what even lines carry there at the same phases.
+    """
+    length, face = _strips(pair).length, states.place[:, 0] / pair.face_width
+    strip = np.minimum((face * STRIPS).astype(int), STRIPS - 1)
+    mean = states.load.sum() / PHASES / length.sum(axis=(1, 2))
+    even = (mean[:, None] * length.sum(axis=1)).sum(axis=0)
+    along = np.bincount(strip, states.load, minlength=STRIPS) / even
+    return float(along.max()), float(states.line_load.max() * length.sum() / states.load.sum())
 
 
 def _strips(pair: HelicalPair) -> LinePoints:
