@@ -18,7 +18,7 @@ _Number = Array | float
 _T_38 = 311.0  # K
 # alpha at 38 degC [1/Pa] over a power of eta in Pa.s; not checked but of mineral oil
 _ALPHA = {"mineral": (2.657e-8, 0.1348), "pao": (1.466e-8, 0.0507), "pag": (1.392e-8, 0.1572)}
-_MARGIN = 1.4  # of the test gear's specific film
+MARGIN = 1.4  # of the test gear's specific film
 _MODULUS = 226.374e9  # E_r of steel [Pa]
 # point A of the test gears C-GF at 2250 1/min: radius [m], speeds [m/s], line load over the torque
 # of the pinion [1/m2], R_a [m]
@@ -131,7 +131,7 @@ def permissible_film(
     pressure = math.sqrt(_MODULUS * line_load / (2.0 * math.pi * radius))
     given = {"bulk": bulk, "contact": contact, "friction": 0.0, "roughness": roughness, **film}
     found = specific_film(radius, pressure, speeds, **given)
-    return _MARGIN * material * float(found.specific)
+    return MARGIN * material * float(found.specific)
 
 
 def micropitting_rating(
