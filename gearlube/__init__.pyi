@@ -228,6 +228,7 @@ from gearlube_core.rating.micropitting import permissible_film as permissible_fi
 from gearlube_core.rating.micropitting import micropitting_rating as micropitting_rating
 from gearlube_core.rating.subsurface import hardness_profile as hardness_profile
 from gearlube_core.rating.subsurface import shear_amplitude as shear_amplitude
+from gearlube_core.rating.subsurface import CaseHardening as CaseHardening
 from gearlube_core.rating.subsurface import flank_fracture as flank_fracture
 from gearlube_core.rating.wear import wear_per_cycle as wear_per_cycle
 from gearlube_core.rating.life import miner_sum as miner_sum

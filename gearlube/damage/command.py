@@ -117,6 +117,27 @@ def damage(
     scuffing_temperature: Annotated[
         float | None, typer.Option(help="At which the oil scuffs, mean of tests [degC].")
     ] = None,
+    surface_hv: Annotated[
+        float | None, typer.Option(help="Hardness of the flanks at the surface [HV].")
+    ] = None,
+    core_hv: Annotated[float | None, typer.Option(help="Hardness of the core [HV].")] = None,
+    case_depth_mm: Annotated[
+        float | None, typer.Option(help="Depth at 550 HV [mm]; with both, for flank fracture.")
+    ] = None,
+    torsion_limit_mpa: Annotated[
+        float | None,
+        typer.Option(help="Fatigue limit of reversed torsion, for under the surface [MPa]."),
+    ] = None,
+    bending_fatigue_mpa: Annotated[
+        float | None, typer.Option(help="The same of reversed bending of a smooth bar [MPa].")
+    ] = None,
+    micropitting_torque_nm: Annotated[
+        float | None,
+        typer.Option(help="Pinion torque at the failure stage of the oil's C-GF test [N.m]."),
+    ] = None,
+    micropitting_bulk: Annotated[
+        float, typer.Option(help="Flanks in that test; 90 is its oil, the safe choice [degC].")
+    ] = 90.0,
     start_temperature: Annotated[
         float, typer.Option(help="Oil at the start of each cycle, and air [degC].")
     ] = 23.0,
@@ -140,18 +161,34 @@ def damage(
     from gearlube.damage.pair import check_options, helical_teeth, is_pair, pair_settings
     from gearlube.damage.report import damage_report
     from gearlube.damage.run import run_damage
-    from gearlube.damage.settings import DamageSettings, rated_bearing, rated_gears, rated_pair
+    from gearlube.damage.settings import (
+        DamageSettings,
+        rated_bearing,
+        rated_gears,
+        rated_pair,
+        together,
+    )
     from gearlube.damage.summary import SUMMARY_HEAD
     from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.report.parts import Input
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
+    from gearlube_core.contact.dang_van import FatigueLimits
     from gearlube_core.errors import ParameterError
     from gearlube_core.helical_geometry.gear_file import HelicalGearFile
     from gearlube_core.oil.oil_file import read_oil
     from gearlube_core.rating.gears import LoadFactors
+    from gearlube_core.rating.subsurface import CaseHardening
     from gearlube_core.units import celsius_to_kelvin
 
+    hardness = {
+        "--surface-hv": surface_hv, "--core-hv": core_hv, "--case-depth-mm": case_depth_mm,
+    }  # fmt: skip
+    fatigue = {
+        "--torsion-limit-mpa": torsion_limit_mpa, "--bending-fatigue-mpa": bending_fatigue_mpa,
+    }  # fmt: skip
     with study_run("damage", out, overwrite=overwrite) as run:
+        case = together(hardness, "720 and 342 HV with 0.5 mm are an example.")
+        steel = together(fatigue, "260 and 398 MPa are those of quenched 42CrMo4.")
         limits = treatment, contact_limit_mpa, bending_limit_mpa
         car = blank = teeth = None
         pair = is_pair(gear_set)
@@ -221,6 +258,12 @@ def damage(
             scuffing_temperature=(
                 None if scuffing_temperature is None else celsius_to_kelvin(scuffing_temperature)
             ),
+            case=CaseHardening(case[0], case[1], 1e-3 * case[2]) if case else None,
+            fatigue=(
+                FatigueLimits(torsion=1e6 * steel[0], bending=1e6 * steel[1]) if steel else None
+            ),
+            test_torque=micropitting_torque_nm,
+            test_bulk=celsius_to_kelvin(micropitting_bulk),
             duty=duty,
         )
         with run.results() as progress:
@@ -240,6 +283,10 @@ def damage(
             "oil": settings.teeth.oil.name,
             "load stage": load_stage,
             "roughness [µm]": roughness_um,
+            **hardness,
+            **fatigue,
+            "torque of the C-GF test [N·m]": micropitting_torque_nm,
+            "bulk in that test [°C]": micropitting_bulk if micropitting_torque_nm else None,
         }
         inputs = [Input(name, str(value)) for name, value in given.items() if value is not None]
         report = damage_report(dataset, out / "figures", [*inputs, *inputs_of])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,16 @@ _MAPS = {
     "heat_map": ("greatest friction power", "W/mm²", "magma_r"),
     "wear_map": ("wear depth", "µm", "cividis_r"),
     "local_damage_map": ("local pitting damage", "", "cividis_r"),
+    "fracture_map": ("flank fracture, greatest A_FF", "", "magma_r"),
+    "fatigue_map": ("Dang Van, compression does not help", "", "magma_r"),
+}
+_STRESS, _SHARE = "stress and strength [MPa]", "share of the limit"
+_OVER_DEPTH = {
+    "shear_strength": (_STRESS, "shear strength by hardness"),
+    "shear_amplitude": (_STRESS, "amplitude of shear"),
+    "fracture_profile": (_SHARE, "flank fracture, A_FF"),
+    "fatigue_bound_profile": (_SHARE, "Dang Van, compression does not help"),
+    "fatigue_profile": (_SHARE, "Dang Van, compression helps"),
 }
 _BARS = {"contact_damage": "pitting damage by the standard", "wear": "wear depth [µm]"}
 _SHOWN, _LEAST = 10, 1e-3  # bins in a chart, and the share of the sum that is shown
@@ -31,7 +41,8 @@ def damage_figures(dataset: xr.Dataset) -> dict[str, Any]:
     sides = [one for one in ("drive", "coast") if dataset["pressure_map"].sel(side=one).any()]
     maps = {f"maps_{side}": tooth_figure(dataset.sel(side=side), side) for side in sides}
     kept = {name: words for name, words in _BARS.items() if name in dataset and dataset[name].any()}
-    return maps | ({"bins": bin_figure(dataset, kept)} if kept else {})
+    under = {"under_surface": depth_figure(dataset, sides)} if "depth" in dataset else {}
+    return maps | under | ({"bins": bin_figure(dataset, kept)} if kept else {})
 
 
 def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
@@ -66,6 +77,28 @@ def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
         figure.suptitle(
             f"{side.capitalize()} side over the whole life. {words_of.where}", fontsize=10.5
         )
+    return figure
+
+
+def depth_figure(dataset: xr.Dataset, sides: Sequence[str]) -> Any:
+    """Return stress, strength and shares of limits over depth at the worst place of each side."""
+    kept = {name: words for name, words in _OVER_DEPTH.items() if name in dataset}
+    labels = list(dict.fromkeys(label for label, _ in kept.values()))
+    with house_style():
+        figure = new_figure(10.5, 0.9 + 2.7 * len(labels))
+        axes = figure.subplots(len(labels), len(sides), squeeze=False, sharex=True, sharey="row")
+        for k, side in enumerate(sides):
+            of_side = dataset.sel(side=side)
+            for name, (label, words) in kept.items():
+                ax = axes[labels.index(label), k]
+                ax.plot(of_side["depth"].values, of_side[name].values, label=words)
+            for label, ax in zip(labels, axes[:, k], strict=True):
+                ax.set_ylim(0.0)
+                ax.set_ylabel(label)
+                ax.legend(title=f"{side} side", loc="upper right")
+            axes[-1, k].axhline(1.0, color="0.4", linestyle=":", linewidth=1.0)
+            axes[-1, k].set_xlabel("depth below the flank [mm]")
+        figure.suptitle("Under the surface, at the worst place of the whole life", fontsize=10.5)
     return figure
 
 

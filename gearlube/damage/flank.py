@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -70,10 +71,20 @@ def flank_damage(
     )
 
 
+def places_along(states: FlankStates) -> Array:
+    """Return places along a contact line over half its length, -1 to 1; of a strip its middle."""
+    return _WITHIN if states.strips else _ACROSS
+
+
 def tooth_maps(
-    states: FlankStates, damage: FlankDamage, tooth_size: tuple[float, float]
+    states: FlankStates,
+    damage: FlankDamage,
+    tooth_size: tuple[float, float],
+    lines: Mapping[str, Array] | None = None,
 ) -> dict[str, Array]:
     """Return the quantities of `POWERS` on the drawn gear tooth, (HIGH, WIDE); 0: no contact.
+
+    And those of `lines`, each known at `places_along` every contact line, shape (N, places).
 
     Every point of a flank is passed by the contact line once. Lines are laid between the states, as
     long as the Hertz ellipse, and cut off at the edges of the tooth; strips are laid as they are.
@@ -82,11 +93,14 @@ def tooth_maps(
     """
     n = states.load.size
     fine = np.linspace(0.0, n - 1.0, n if states.strips else _FINER * n)
-    across = _WITHIN if states.strips else _ACROSS
+    across = places_along(states)
     profile = np.ones_like(across) if states.strips else 1.0 - across**2
+    low = fine.astype(int)
+    high, share = np.minimum(low + 1, n - 1), (fine - low)[:, None]
 
     def between(values: Array) -> Array:
-        return np.interp(fine, np.arange(n), values)[:, None]
+        rows = values.reshape(n, -1)
+        return np.asarray(rows[low] + share * (rows[high] - rows[low]))
 
     at, cells = [], []
     for axis, (size, count) in enumerate(zip(tooth_size, (WIDE, HIGH), strict=True)):
@@ -95,9 +109,11 @@ def tooth_maps(
         cells.append((at[-1] * count).astype(int))
     inside = (at[0] >= 0.0) & (at[0] < 1.0) & (at[1] >= 0.0) & (at[1] < 1.0)
     cell = (cells[1] * WIDE + cells[0])[inside]
-    maps = {}
+    every = {name: between(one) for name, one in (lines or {}).items()}
     for name, power in POWERS.items():
-        values = between(getattr(damage, name)) * profile**power
+        every[name] = between(getattr(damage, name)) * profile**power
+    maps = {}
+    for name, values in every.items():
         values = 1.0 / values if name == "film" else values
         found = np.zeros(HIGH * WIDE)
         np.maximum.at(found, cell, values[inside])

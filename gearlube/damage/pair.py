@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from gearlube.damage.bins import bin_words
+from gearlube.damage.permissible_film import permissible_line_ratio
 from gearlube.damage.teeth import Beside, Row, Teeth, safety_row
 from gearlube.plotting.drawn_tooth import ToothWords
 from gearlube.report.numbers import number_text
@@ -163,6 +164,7 @@ def helical_teeth(
         drawn=_DRAWN,
         drawn_size=(pair.face_width, pair.contact_end - pair.contact_start),
         limits=_LIMITS,
+        permissible=partial(permissible_line_ratio, film),
         withheld="" if rated else why,
     )
     return teeth._replace(beside=partial(_beside, pair, teeth, load_stage))

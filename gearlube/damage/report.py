@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -28,6 +29,7 @@ from gearlube.report.parts import (
 _TITLES = {
     "maps_drive": "Drive side of the teeth",
     "maps_coast": "Coast side of the teeth",
+    "under_surface": "Under the surface",
     "bins": "The bins that matter most",
 }
 _WORST, _LEAST_PECLET = 3, 5.0
@@ -42,7 +44,11 @@ _LIMITS = (
     "to 60 % in one test, and the share of the load on asperities differs 30 times between laws of "
     "friction.",
 )
-_OF_BINS = "The bins that do most, at most ten, with torque, speed and oil temperature."
+_CAPTIONS = {
+    "under_surface": "At the place of the greatest number of each kind. The method of flank "
+    "fracture holds from the half width of the contact on. Residual stress is left out.",
+    "bins": "The bins that do most, at most ten, with torque, speed and oil temperature.",
+}
 _CAPTION = (
     "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact, or "
     "no damage."
@@ -64,7 +70,7 @@ def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = 
             Figure(
                 name=name,
                 title=title,
-                caption=_OF_BINS if name == "bins" else f"{_CAPTION} {drawn.where}",
+                caption=_CAPTIONS.get(name, f"{_CAPTION} {drawn.where}"),
                 picture=pictures[name],
             )
             for name, title in _TITLES.items()
@@ -156,6 +162,9 @@ def _doubts(dataset: xr.Dataset) -> list[Finding]:
     time = hours / hours.sum()
     thin = 100.0 * time[dataset["film_ratio"].values < 1.0].sum()
     outside = 100.0 * time[dataset["outside"].values > _MUCH].sum()
+    least = dataset.attrs.get("permissible_film", math.nan)
+    asked = "permissible_film" in dataset.attrs
+    below = 100.0 * time[dataset["film_ratio"].values < least].sum()
     slow = int((dataset["peclet"].values < _LEAST_PECLET).sum())
     beyond = int((np.abs(dataset["torque"].values) > dataset.attrs["table_torque_n_m"]).sum())
     told = (
@@ -180,6 +189,25 @@ def _doubts(dataset: xr.Dataset) -> list[Finding]:
             dataset.attrs["film"] == "solved" and outside > 0.0, WARNING,
             f"In {outside:.0f} % of the time load is outside the model of solved films.",
             "Film and friction go over into those of the formulas there.",
+        ),
+        (
+            math.isnan(least), NOTE, "No limit of micropitting: "
+            + ("the test gear is outside the model of solved films." if asked else
+               "the test of the oil is not given."),
+            "A limit by formulas does not hold for solved films. Use formulas for both." if asked
+            else "Give --micropitting-torque-nm, of the failure stage of the oil's C-GF test; "
+            "265.1 N·m is stage 10. The film of the test gear follows from the same film law.",
+        ),
+        (
+            below > 0.0, NOTE,
+            f"The film is below the permissible one in {below:.2g} % of the time.",
+            "It may micropit there. The permissible film is 1.4 times that of the test gear.",
+        ),
+        (
+            "depth" not in dataset, NOTE, "Nothing under the surface: hardness and fatigue limits "
+            "are not given.",
+            "Give --surface-hv, --core-hv and --case-depth-mm for flank fracture, or "
+            "--torsion-limit-mpa and --bending-fatigue-mpa for the number of Dang Van.",
         ),
         (
             "wear_map" not in dataset, NOTE, "No wear: its coefficient is not given.",

@@ -13,10 +13,11 @@ import xarray as xr
 
 from gearlube.damage.bins import bin_words
 from gearlube.damage.figures import damage_figures
-from gearlube.damage.flank import HIGH, WIDE, flank_damage, tooth_maps
+from gearlube.damage.flank import HIGH, WIDE, flank_damage, places_along, tooth_maps
 from gearlube.damage.settings import DamageSettings
 from gearlube.damage.summary import SUMMARY_HEAD, summary_rows
 from gearlube.damage.teeth import Teeth
+from gearlube.damage.under_surface import depth_variables, under_surface
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.cycle import variables_of
@@ -44,6 +45,8 @@ _OF_BINS = {
     "friction_power": (_BIN, "W", "mean friction power of the flanks"),
     "outside": (_BIN, "1", "share of the load outside the model of solved films"),
     "at_edge": (_BIN, "1", "share of the load with an edge of the tooth in the contact"),
+    "fracture": (_BIN, "1", "greatest utilisation A_FF of flank fracture"),
+    "fatigue": (_BIN, "1", "greatest number of Dang Van, compression does not help"),
     "wear": (_MEMBER, "um", "wear depth at the worst place"),
     "contact_stress": (_MEMBER, "MPa", "contact stress of the standard"),
     "local_damage": (_MEMBER, "1", "local pitting damage at the worst place"),
@@ -130,6 +133,10 @@ def run_damage(
     def summed(name: str) -> Array:
         return np.stack([values[name][side].sum(axis=0) for side in on])
 
+    def worst(name: str) -> Array:
+        places = ([np.zeros(4), *values[name][side]] for side in on)
+        return np.array([max(of_side, key=lambda place: place[0]) for of_side in places])
+
     thin = largest("thin_map")
     film = np.divide(1.0, thin, out=np.full_like(thin, np.nan), where=thin > 0.0)
     one |= {
@@ -141,6 +148,9 @@ def run_damage(
     }
     if settings.wear_coefficient is not None:
         one["wear_map"] = _BOTH, summed("wear_map"), "um", "wear depth"
+    under = [name for name in ("fracture", "fatigue") if name in values]
+    one |= {f"{name}_map": (_SIDE, largest(f"{name}_map"), *_OF_BINS[name][1:]) for name in under}
+    one |= depth_variables({name: worst(f"{name}_worst") for name in under}, settings)
     places = {
         name: (name, 1e3 * length * (np.arange(n) + 0.5) / n, {"units": "mm"})
         for name, length, n in zip(("along", "up"), teeth.drawn_size, (WIDE, HIGH), strict=True)
@@ -170,6 +180,9 @@ def run_damage(
             "notes": json.dumps(beside.notes),
         },
     )
+    if settings.test_torque is not None:
+        limit = teeth.permissible(settings.test_torque, settings.test_bulk)
+        dataset.attrs["permissible_film"] = limit
     dataset.attrs["summary"] = json.dumps(summary_rows(dataset, settings, beside.rows))
     if folder is not None:
         _write(dataset, folder)
@@ -186,7 +199,10 @@ def _solved(
     found = flank_damage(
         states, teeth.solid, settings.wear_coefficient or 0.0, all_load=settings.wear_of_all_load
     )
-    maps = tooth_maps(states, found, teeth.drawn_size)
+    lines = under_surface(states, settings, places_along(states))
+    maps = tooth_maps(
+        states, found, teeth.drawn_size, {name: along for name, (along, _) in lines.items()}
+    )
     share = states.load / states.load.sum()
     wear = [
         n * 1e6 * maps[f"{role}_wear"] for n, role in zip(cycles, ("pinion", "gear"), strict=True)
@@ -212,6 +228,9 @@ def _solved(
         "friction_power": states.friction_power,
         "outside": float(states.outside @ share),
         "at_edge": float((states.table_pressure > EDGE_PRESSURE) @ share),
+        **{name: worst[0] for name, (_, worst) in lines.items()},
+        **{f"{name}_worst": worst for name, (_, worst) in lines.items()},
+        **{f"{name}_map": maps[name] for name in lines},
         "wear": [one.max() for one in wear],
         "contact_stress": [1e-6 * one for one in stress],
         "local_damage": [one.max() for one in local],

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated
+
+import numpy as np
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
 from gearlube.damage.teeth import Teeth, axle_teeth
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_within
+from gearlube_core.contact.dang_van import FatigueLimits
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
@@ -20,6 +23,7 @@ from gearlube_core.number import Checked, Number
 from gearlube_core.rating.bearing_life import RatedBearing
 from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear
 from gearlube_core.rating.spectrum import DutyBins, Rate
+from gearlube_core.rating.subsurface import CaseHardening, hardness_profile
 
 _MOST_BINS = 1000
 
@@ -56,6 +60,14 @@ class DamageSettings(Checked):
         Composite, of raceways and rollers [m]; with solved films of rollers kappa follows from it.
     scuffing_temperature
         At which the oil scuffs, mean of tests [K]; None: no probability of scuffing.
+    case
+        Hardness of the flanks over depth; None: no flank fracture.
+    fatigue
+        Limits under the surface, the same at all depths; None: no number of Dang Van.
+    test_torque
+        Of the C-GF test gear at the failure stage of the oil [N.m]; None: no permissible film.
+    test_bulk
+        Temperature of the flanks in that test [K]; 363.15 is that of its oil, the safe choice.
     duty
         Words for the bins.
 
@@ -83,10 +95,18 @@ class DamageSettings(Checked):
     scuffing_temperature: Annotated[
         float | None, Number("K", 300.0, 1000.0, "250 degC is 523 K.")
     ] = None
+    case: CaseHardening | None = None
+    fatigue: FatigueLimits | None = None
+    test_torque: Annotated[
+        float | None, Number("N.m", 5.0, 1000.0, "265.1 N.m is load stage 10.")
+    ] = None
+    test_bulk: Annotated[float, Number("K", 300.0, 500.0, "90 degC is 363.15 K.")] = 363.15
     duty: str = "own bins"
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
+        if self.case is not None:
+            hardness_profile(np.zeros(1), **self.case._asdict())
         cure = "Take wider bins."
         check_within("the number of bins", self.bins.torque.size, 1, _MOST_BINS, "", cure)
         for torque in self.bins.torque:
@@ -94,6 +114,8 @@ class DamageSettings(Checked):
             check_within("torque of a bin", torque, *words)
         for temperature in self.bins.temperature:
             self.teeth.oil.check_temperature(float(temperature), "temperature of a bin")
+        if self.test_torque is not None:
+            self.teeth.oil.check_temperature(self.test_bulk, "test_bulk")
 
     @cached_property
     def teeth(self) -> Teeth:
@@ -123,18 +145,23 @@ def rated_gears(
     ParameterError
         One of both limits is missing, or out of range.
     """
-    if contact_mpa is None and bending_mpa is None:
+    both = {"--contact-limit-mpa": contact_mpa, "--bending-limit-mpa": bending_mpa}
+    limits = together(both, "1500 and 430 MPa are an example of case-hardened steel.")
+    if not limits:
         return None
-    if contact_mpa is None or bending_mpa is None:
-        raise ParameterError(
-            f"Both limits of the gears must be given, got contact {contact_mpa} and bending "
-            f"{bending_mpa} MPa. 1500 and 430 MPa are an example of case-hardened steel of medium "
-            "quality."
-        )
     gear = RatedGear(
-        treatment=treatment, contact_limit=1e6 * contact_mpa, bending_limit=1e6 * bending_mpa
+        treatment=treatment, contact_limit=1e6 * limits[0], bending_limit=1e6 * limits[1]
     )
     return gear, gear
+
+
+def together(numbers: Mapping[str, float | None], cure: str) -> list[float]:
+    """Return numbers that are given together, or none of them; only some raise ParameterError."""
+    given = [one for one in numbers.values() if one is not None]
+    if given and len(given) < len(numbers):
+        got = ", ".join(f"{name} {one}" for name, one in numbers.items())
+        raise ParameterError(f"These must be given together, got {got}. {cure}")
+    return given
 
 
 def rated_pair(

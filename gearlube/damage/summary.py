@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,6 +13,7 @@ from gearlube.damage.settings import DamageSettings
 from gearlube.damage.teeth import Row, safety_row
 from gearlube.report.numbers import number_text
 from gearlube_core.rating.contact_temperature import scuffing_probability
+from gearlube_core.rating.subsurface import OFFSET
 from gearlube_core.units import ZERO_CELSIUS
 
 SUMMARY_HEAD = ("failure mode", "value", "limit", "safety", "required", "verdict", "by")
@@ -20,6 +22,11 @@ _MODES = {
     "breakage": "bending_damage",
 }  # fmt: skip
 _NO_LIMIT = "no limit given"
+_FATIGUE = "Dang Van with the limits given, at all depths; safety: of stress"
+_FRACTURE = (
+    "shear of a passing Hertz line, hardness after Lang, in the manner of ISO/TS 6336-4; safety: "
+    "of stress"
+)
 _WEAR_LIMIT = 2.0  # um; beyond, the contact must be solved on the worn flank
 TOO_DEEP = "too deep for the rate of a new flank"
 _RISKS = ((0.1, "low risk"), (0.3, "moderate risk"), (1.01, "high risk"))
@@ -56,9 +63,7 @@ def summary_rows(
         verdict = f"{risk}: {100.0 * chance:.2g} %"
     by = "Blok's integral with the friction of the flanks; probability as AGMA 925, not checked"
     rows.append(("scuffing: contact temperature", f"{hot:.0f} °C", limit, "", "", verdict, by))
-    film = float(dataset["film_ratio"].min())
-    by = f"film: {dataset.attrs['film']}; a limit must be solved with the same film"
-    rows.append(("micropitting: least film ratio", number_text(film), "", "", "", _NO_LIMIT, by))
+    rows += [_film_row(dataset), *_under_surface_rows(dataset)]
     whose, thin = "load on asperities", "ranks places alone"
     if settings.wear_of_all_load:
         whose, thin = "all load", "shallow"
@@ -89,4 +94,31 @@ def summary_rows(
             life = 1.0 / total if total > 0.0 else np.inf
             value, how = number_text(total), f"{by}; safety: of life"
             rows.append(safety_row(label, value, "1", life, "1", "lasts", how))
+    return rows
+
+
+def _film_row(dataset: xr.Dataset) -> Row:
+    film, name = float(dataset["film_ratio"].min()), "micropitting: least film ratio"
+    least, law = dataset.attrs.get("permissible_film", math.nan), dataset.attrs["film"]
+    if math.isnan(least):
+        by = f"film: {law}; a limit must be solved with the same film"
+        return name, number_text(film), "", "", "", _NO_LIMIT, by
+    by = f"our own film on both ({law}), in the manner of ISO/TS 6336-22, method A"
+    return safety_row(name, number_text(film), number_text(least), film / least, "", "safe", by)
+
+
+def _under_surface_rows(dataset: xr.Dataset) -> list[Row]:
+    fatigue, rows = "fatigue under the surface, {}: compression ", []
+    for name, words, offset, by in (
+        ("fracture_profile", "flank fracture, {}: A_FF", OFFSET, _FRACTURE),
+        ("fatigue_profile", fatigue + "helps", 0.0, _FATIGUE),
+        ("fatigue_bound_profile", fatigue + "does not help", 0.0, _FATIGUE),
+    ):
+        for side in dataset["side"].values if name in dataset else ():
+            used = dataset[name].sel(side=side).values
+            if not np.isnan(used).all():
+                most, depth = np.nanmax(used), dataset["depth"].values[np.nanargmax(used)]
+                safety = (1.0 - offset) / (most - offset) if most > offset else math.inf
+                value = f"{number_text(most)}, {depth:.2f} mm deep"
+                rows.append(safety_row(words.format(side), value, "1", safety, "1", "safe", by))
     return rows

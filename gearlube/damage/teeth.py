@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivetrain.axle_file.axle_file import CarAxle
+from gearlube.damage.permissible_film import permissible_ratio
 from gearlube.plotting.drawn_tooth import GEAR_TOOTH, ToothWords
 from gearlube.report.numbers import number_text
 from gearlube_core.contact.solid import Solid
@@ -60,6 +61,8 @@ class Teeth(NamedTuple):
     drawn: ToothWords
     drawn_size: tuple[float, float]  # along and up [m]
     limits: tuple[str, ...]  # what the solved numbers leave out
+    # film ratio without micropitting, of torque and bulk temperature of the test gear
+    permissible: Callable[[float, float], float]
     withheld: str = ""  # why nothing is rated
     beside: Callable[[DutyBins, Gears | None, LoadFactors], Beside] = lambda *given: Beside(
         [], (), ()
@@ -129,4 +132,5 @@ def axle_teeth(car: CarAxle, blank: HypoidBlank | None) -> Teeth:
         drawn=GEAR_TOOTH,
         drawn_size=axle.mesh.tooth_size or (1.0, 1.0),
         limits=_AXLE,
+        permissible=partial(permissible_ratio, axle),
     )

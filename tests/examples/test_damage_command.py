@@ -47,6 +47,29 @@ def test_a_table_of_bins_gives_summary_maps_and_report(bins, tmp_path):
     assert ["contact limit [MPa]", "1500.0"] in given
 
 
+def test_hardness_limits_and_the_test_of_the_oil_give_their_rows(bins, tmp_path):
+    out = tmp_path / "out"
+    hardness = "--surface-hv", 720, "--core-hv", 342, "--case-depth-mm", 0.8
+    limits = "--torsion-limit-mpa", 400, "--bending-fatigue-mpa", 640
+    test = "--micropitting-torque-nm", 265.1, "--micropitting-bulk", 100
+    done = run("--cycle", bins, *hardness, *limits, *test, "--out", out)
+    assert done.exit_code == 0, done.output
+    found = {row["failure mode"]: row for row in rows(out, "summary.csv")}
+    drive = "fatigue under the surface, drive: compression"
+    for name in ("flank fracture, coast: A_FF", f"{drive} helps", f"{drive} does not help"):
+        assert float(found[name]["safety"]) > 0.5
+    assert float(found["micropitting: least film ratio"]["limit"]) > 0.1
+    assert (out / "figures" / "under_surface.png").exists()
+    given = [one[:2] for one in read_report(out)["inputs"]]
+    assert ["--case-depth-mm", "0.8"] in given
+
+
+def test_a_case_without_its_depth_is_refused(bins, tmp_path, caplog):
+    done = run("--cycle", bins, "--surface-hv", 720, "--core-hv", 342, "--out", tmp_path / "out")
+    assert done.exit_code == BAD_ARGUMENT
+    assert "--case-depth-mm None" in caplog.text
+
+
 def test_a_cycle_with_a_severe_block(bins, tmp_path):
     trace, out = tmp_path / "trace.csv", tmp_path / "out"
     trace.write_text("time_s,speed_kmh\n" + "".join(f"{t},{40 + t / 5}\n" for t in range(0, 61, 5)))

@@ -11,11 +11,13 @@ import xarray as xr
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.damage.flank import flank_damage
 from gearlube.damage.pair import helical_teeth, is_pair, pair_settings
+from gearlube.damage.permissible_film import permissible_line_ratio
 from gearlube.damage.report import damage_report, findings
 from gearlube.damage.run import run_damage
 from gearlube.damage.settings import DamageSettings, rated_gears
 from gearlube.studies.helical.pair_losses import losses_dataset
 from gearlube.studies.helical.settings import quick_settings
+from gearlube_core.contact.dang_van import FatigueLimits
 from gearlube_core.dynamics.helical_pair.flank_states import face_load
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_contact.contact_dataset import HelicalContact
@@ -249,3 +251,32 @@ def test_gear_files_of_pairs_are_known_from_axles(tmp_path):
     path.write_text("[gear_set]\nmesh_table = 'a.nc'\n")
     assert not is_pair(str(path))
     assert not is_pair(str(tmp_path / "missing.toml"))
+
+
+def test_under_a_line_of_the_pair_is_the_stress_of_a_line_load():
+    found = run_damage(damage_of(fatigue=FatigueLimits(bending=640e6, torsion=400e6)))
+    p = 1e9 * found["fatigue_pressure"].values[0]
+    assert p == pytest.approx(1e9 * found["pressure"].values.max(), rel=1e-6)
+    # of a line load without friction; friction adds less than 1 %, strips have no thin ends
+    assert float(found["fatigue"].max()) == pytest.approx(0.25 * p / 400e6, rel=0.01)
+    assert float(found["fatigue_map"].sel(side="drive").max()) == pytest.approx(
+        float(found["fatigue"].max()), rel=1e-6
+    )
+
+
+@pytest.mark.parametrize("film", ["formula", "solved"])
+def test_the_test_gear_has_the_film_of_lines_as_the_pair_has_it(film):
+    settings, teeth = teeth_of(film_model=film)
+    oil, R, u, w = settings.film().oil.state(363.15), 3.8998e-3, 2.91865, 236.3e3
+    E = 2.0 * 210e9 / (2.0 * (1.0 - 0.3**2))  # E' of equal solids
+    G, U, W = oil.alpha * E, oil.eta0 * u / (E * R), w / (E * R)
+    dowson_toyoda = 3.06 * R * G**0.56 * U**0.69 * W**-0.10
+    one = 1.4 * dowson_toyoda / (math.sqrt(math.pi) * 0.5e-6)
+    # films that slide are hot and thinner: as solved, and as the usual law of friction takes them
+    assert 0.6 * one < teeth.permissible(265.1, 363.15) < 0.95 * one
+    if film == "formula":
+        cold = permissible_line_ratio(replace(settings.film(), asperities=None), 265.1, 363.15)
+        assert cold == pytest.approx(one, rel=1e-3)  # digits of the formula
+    rows = json.loads(run_damage(damage_of(teeth=teeth, test_torque=265.1)).attrs["summary"])
+    row = next(one for one in rows if one[0] == "micropitting: least film ratio")
+    assert row[6].startswith(f"our own film on both ({film})")
