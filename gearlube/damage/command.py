@@ -97,9 +97,13 @@ def damage(
     ] = None,
     load_stage: Annotated[
         float | None,
+        typer.Option(help="Of a pair: failure load stage of the oil in the FZG test A/8.3/90."),
+    ] = None,
+    load_stage_torque_nm: Annotated[
+        float | None,
         typer.Option(
-            help="Of a pair: failure load stage of the oil in the FZG test "
-            "A/8.3/90; its torque is not checked against the source."
+            help="Of the pinion at that stage [N.m]. Default: 3.726 times the square of the stage, "
+            "not checked against the source."
         ),
     ] = None,
     edition: Annotated[
@@ -156,7 +160,6 @@ def damage(
     from drivetrain.axle_file.read_axle import read_axle
     from drivetrain.cycle.traces import DriveCycle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
-    from gearlube.cli.study_run import progress_on
     from gearlube.damage.bins import cycle_bins, is_bins, joined, read_bins
     from gearlube.damage.pair import check_options, helical_teeth, is_pair, pair_settings
     from gearlube.damage.report import damage_report
@@ -199,7 +202,7 @@ def damage(
         }  # fmt: skip
         of_pair = {
             "--oil": oil, "--roughness-um": roughness_um, "--load-stage": load_stage,
-            "--edition": edition,
+            "--load-stage-torque-nm": load_stage_torque_nm, "--edition": edition,
         }  # fmt: skip
         check_options(pair, of_axle, of_pair)
         if pair:
@@ -234,10 +237,11 @@ def damage(
                 file, bins, oil=None if oil is None else read_oil(oil).lubricant,
                 roughness_rms=1e-6 * (0.5 if roughness_um is None else roughness_um),
             )  # fmt: skip
-            with progress_on("contact") as progress:
+            with run.results(bar="contact") as progress:
                 teeth = helical_teeth(
-                    contact, edition=edition or "2006", load_stage=load_stage, progress=progress
-                )
+                    contact, edition=edition or "2006", load_stage=load_stage,
+                    test_torque=load_stage_torque_nm, store=out / "contact", progress=progress,
+                )  # fmt: skip
         settings = DamageSettings(
             car=car,
             pair=teeth,
@@ -282,6 +286,7 @@ def damage(
             "cleanliness": cleanliness,
             "oil": settings.teeth.oil.name,
             "load stage": load_stage,
+            "its torque [N·m]": load_stage_torque_nm,
             "roughness [µm]": roughness_um,
             **hardness,
             **fatigue,

@@ -103,7 +103,8 @@ def pair_settings(file: HelicalGearFile, bins: DutyBins, **given: object) -> Hel
 
 def helical_teeth(
     settings: HelicalSettings, contact: HelicalContact | None = None, *, edition: str = "2006",
-    load_stage: float | None = None, jobs: int | None = None, progress: Progress = no_progress,
+    load_stage: float | None = None, test_torque: float | None = None, store: Path | None = None,
+    jobs: int | None = None, progress: Progress = no_progress,
 ) -> Teeth:  # fmt: skip
     """Return the teeth of a pair, for `DamageSettings`.
 
@@ -113,11 +114,12 @@ def helical_teeth(
         See `pair_settings`; loaded contact of these settings, None: it is solved here.
     edition
         Of ISO 6336-1, -2, -3, see `cylindrical_rating`.
-    load_stage
-        Failure load stage of the oil in the FZG test A/8.3/90 [-], whose torque is not checked
-        against the source; None: scuffing by the standard is withheld.
-    jobs, progress
-        Processes of the loaded contact; called with the share that is done and a sentence.
+    load_stage, test_torque
+        Failure load stage of the oil in the FZG test A/8.3/90 [-], None: scuffing by the standard
+        is withheld; its pinion torque [N.m], None: a formula not checked against the source.
+    store, jobs, progress
+        Folder that keeps finished positions of the loaded contact; its processes; called with the
+        share that is done and a sentence.
 
     Raises
     ------
@@ -136,7 +138,7 @@ def helical_teeth(
         check_within("load_stage", load_stage, 1.0, 20.0, "", "12 is usual.")
     pair, film = settings.file.helical_pair(), settings.film()
     if contact is None:
-        contact = analyse_loaded_contact(settings, jobs=jobs, progress=progress)
+        contact = analyse_loaded_contact(settings, store=store, jobs=jobs, progress=progress)
     mesh = contact.line_mesh
     # without the next line to enter and the last one that left
     highest = contact.dataset["pressure_max"].values[..., 1:-1].swapaxes(0, 1)
@@ -167,11 +169,11 @@ def helical_teeth(
         permissible=partial(permissible_line_ratio, film),
         withheld="" if rated else why,
     )
-    return teeth._replace(beside=partial(_beside, pair, teeth, load_stage))
+    return teeth._replace(beside=partial(_beside, pair, teeth, load_stage, test_torque))
 
 
 def _beside(
-    pair: HelicalPair, teeth: Teeth, load_stage: float | None,
+    pair: HelicalPair, teeth: Teeth, load_stage: float | None, test_torque: float | None,
     bins: DutyBins, gears: Gears | None, factors: LoadFactors,
 ) -> Beside:  # fmt: skip
     """Return scuffing and micropitting by the standard, and the load factor of the contact."""
@@ -194,7 +196,9 @@ def _beside(
     outside: dict[str, None] = {}
     loads, scuffs = [], []
     for torque, speed, temperature in zip(*bins[:3], strict=True):
-        oil = FlankOil.of(teeth.oil, temperature=float(temperature), load_stage=load_stage)
+        oil = FlankOil.of(
+            teeth.oil, temperature=temperature, load_stage=load_stage, test_torque=test_torque
+        )
         rating = rate(float(torque), float(speed), float(temperature))
         load = FlankLoad.of(rating, pair, gears, oil)
         loads.append(load)

@@ -8,8 +8,7 @@ from typer.testing import CliRunner
 from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT
 from gearlube.report.stored import read_report
-from gearlube.studies.helical.settings import quick_settings
-from gearlube.studies.helical.stages import analyse_loaded_contact
+from tests.helpers.helical_contact_cases import even_contact
 
 BINS = "torque_n_m,speed_rpm,temperature_degc,hours\n350,600,90,20\n-60,2500,80,100\n"
 LIMITS = ("--contact-limit-mpa", 1500, "--bending-limit-mpa", 430)
@@ -89,13 +88,16 @@ def test_one_limit_is_refused_with_an_example(bins, tmp_path, caplog):
     assert not (tmp_path / "out").exists()
 
 
-def test_a_pair_takes_a_table_of_bins(bins, tmp_path, monkeypatch):
-    def quick(settings, **given):
-        return analyse_loaded_contact(quick_settings(settings), **given)
-
-    monkeypatch.setattr("gearlube.damage.pair.analyse_loaded_contact", quick)
+def test_a_pair_takes_a_table_of_bins(bins, tmp_path, monkeypatch, caplog):
     out = tmp_path / "out"
-    more = "--face-factor", 1.2, "--load-stage", 12, "--oil", "fva_3"
+
+    def even(settings, *, store, **given):
+        assert store == out / "contact"  # finished positions, for the next run
+        return even_contact(settings.constant_mesh())
+
+    monkeypatch.setattr("gearlube.damage.pair.analyse_loaded_contact", even)
+    more = "--face-factor", 1.2, "--load-stage", 12, "--load-stage-torque-nm", 534.5
+    more += "--oil", "fva_3"
     done = run("--cycle", bins, *LIMITS, *more, "--out", out, gears="he_2007")
     assert done.exit_code == 0, done.output
     found = {row["failure mode"]: row for row in rows(out, "summary.csv")}
@@ -104,6 +106,7 @@ def test_a_pair_takes_a_table_of_bins(bins, tmp_path, monkeypatch):
     assert float(found["scuffing: integral temperature"]["safety"]) > 1.0
     given = [one[:2] for one in read_report(out)["inputs"]]
     assert ["oil", "fva_3"] in given
+    assert "from memory" not in caplog.text  # the torque of the load stage is given
     assert ["pair.face_width_mm", "31.75"] in given
 
 

@@ -7,10 +7,13 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import xarray as xr
 
+from gearlube_core.helical_contact.contact_dataset import HelicalContact
 from gearlube_core.helical_contact.tooth_body import HelicalBodySettings, pair_stiffness
 from gearlube_core.helical_geometry.modification import FlankModification, ModifiedPair, TipRelief
 from gearlube_core.helical_geometry.pair import HelicalPair
+from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings, FlankCompliance
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
 from gearlube_core.tooth_contact.coupled_strips import PairStiffness
@@ -47,6 +50,15 @@ EQUAL = replace(
     gear_tip_radius=HE_2007.pinion_tip_radius,
     gear_root_radius=HE_2007.pinion_root_radius,
 )
+
+
+def even_contact(mesh: LineMesh) -> HelicalContact:
+    """Return the contact of a mesh with one stiffness along all lines, whose edges do not press."""
+    pressure = np.zeros((1, 1, mesh.lines + 2))
+    return HelicalContact(
+        xr.Dataset({"pressure_max": (("phase", "torque", "line"), pressure)}), mesh
+    )
+
 
 TEETH_CACHE = shared_folder("teeth")
 

@@ -20,14 +20,15 @@ from gearlube.studies.helical.settings import quick_settings
 from gearlube_core.contact.dang_van import FatigueLimits
 from gearlube_core.dynamics.helical_pair.flank_states import face_load
 from gearlube_core.errors import ParameterError
-from gearlube_core.helical_contact.contact_dataset import HelicalContact
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.rating.flank_load import FlankLoad, FlankOil
 from gearlube_core.rating.gears import LoadFactors
 from gearlube_core.rating.iso_6336 import cylindrical_rating
 from gearlube_core.rating.life import miner_sum
+from gearlube_core.rating.micropitting import TEST_POINT
 from gearlube_core.rating.scuffing import flash_rating
 from gearlube_core.rating.spectrum import DutyBins
+from tests.helpers.helical_contact_cases import even_contact
 
 K_WEAR = 5e-18  # 1/Pa
 FACTORS = LoadFactors(face=1.2)
@@ -49,10 +50,7 @@ COAST = bins_of((-200.0, 262.0, 353.0, 500.0))
 def teeth_of(bins=BINS, file=FILE, film_model=None, **given):
     """Return teeth on which all lines have one stiffness, so that their load is known."""
     settings = pair_settings(file, bins, film_model=film_model)
-    mesh = settings.constant_mesh()
-    pressure = np.zeros((1, 1, mesh.lines + 2))
-    dataset = xr.Dataset({"pressure_max": (("phase", "torque", "line"), pressure)})
-    return settings, helical_teeth(settings, HelicalContact(dataset, mesh), **given)
+    return settings, helical_teeth(settings, even_contact(settings.constant_mesh()), **given)
 
 
 def damage_of(bins=BINS, teeth=None, **given):
@@ -214,6 +212,32 @@ def test_files_figures_and_report(tmp_path):
     assert "plane of contact" in report.figures[0].caption
     assert any("K_Hβ is 1.20 in the standard and 1.00" in one.headline for one in report.findings)
     assert not any("hypoid" in one for one in report.limits)
+
+
+C_GF = """
+name = "c_gf"
+source = "test"
+pair = {normal_module_mm = 4.5, normal_pressure_angle_deg = 20.0, helix_angle_deg = 0.0,
+  centre_distance_mm = 91.5, face_width_mm = 14.0}
+pinion = {teeth = 16, tip_diameter_mm = 82.46, profile_shift_coefficient = 0.182}
+gear = {teeth = 24, tip_diameter_mm = 118.36, profile_shift_coefficient = 0.172}
+"""
+
+
+@pytest.mark.slow
+def test_test_gears_have_the_speeds_and_load_of_the_standard_at_the_start(tmp_path):
+    """TEST_POINT of ISO/TS 6336-22: FZG C at 2250 1/min and 265.1 N.m, point A."""
+    path = tmp_path / "c_gf.toml"
+    path.write_text(C_GF.replace(",\n  ", ", "))
+    settings = pair_settings(HelicalGearFile.from_toml(path), bins_of((265.1, 235.62, 363.0, 1.0)))
+    states = helical_teeth(quick_settings(settings), jobs=1).states(265.1, 235.62, 363.0)
+    first = states.place[:, 1] < states.place[:, 1].min() + 1e-5
+    _, speeds, load, _ = TEST_POINT
+    found = states.pinion_speed[first].mean(), states.gear_speed[first].mean()
+    np.testing.assert_allclose(found, speeds, rtol=0.02)  # tip diameters have tolerances
+    # the standard's share of unmodified teeth, 0.42, beside elastic teeth
+    mean = states.load[first].sum() / (2.0 * states.semi_major[first]).sum()
+    assert mean == pytest.approx(265.1 * load, rel=0.1)
 
 
 @pytest.mark.slow
