@@ -46,7 +46,8 @@ _LIMITS = (
 )
 _CAPTIONS = {
     "under_surface": "At the place of the greatest number of each kind. The method of flank "
-    "fracture holds from the half width of the contact on. Residual stress is left out.",
+    "fracture holds from the half width of the contact on, the number of Dang Van is known down to "
+    "8 of them. Residual stress is left out.",
     "bins": "The bins that do most, at most ten, with torque, speed and oil temperature.",
 }
 _CAPTION = (

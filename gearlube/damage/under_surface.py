@@ -28,7 +28,8 @@ from gearlube_core.rating.subsurface import (
 
 _STEP = 0.01  # of the friction coefficient; one changes the greatest shear by 0.1 %
 _WITHIN, _LAYERS = 3.0, 24  # how deep fracture is sought [case depths], and at how many depths
-_DEEPEST, _DEPTHS = 3.0, 150  # half widths, without a case; depths of the variables
+# of the variables over depth: the deepest, in half widths without a case; over the first; how many
+_DEEPEST, _FINEST, _DEPTHS = 3.0, 300.0, 150
 _LEAST = 1e-6  # of the load at the ends of a line
 _AT = ("side", "depth")
 
@@ -66,10 +67,14 @@ def depth_variables(places: dict[str, Array], settings: DamageSettings) -> dict[
     coast side, all 0 where nothing loads a side.
     """
     case, limits = settings.case, settings.fatigue
-    deepest = _DEEPEST * max((float(at[:, 2].max()) for at in places.values()), default=0.0)
+    if not places:
+        return {}
+    deepest = _DEEPEST * max(float(at[:, 2].max()) for at in places.values())
     if case is not None:
         deepest = max(deepest, _WITHIN * case.case_depth)
-    z = deepest * np.arange(1, _DEPTHS + 1) / _DEPTHS
+    # flank fracture is often greatest where it begins, at the half width
+    begins = [a for _, _, a, _ in places.get("fracture", ()) if a > 0.0]
+    z = np.unique([*np.geomspace(deepest / _FINEST, deepest, _DEPTHS), *begins])
     found: dict[str, Any] = {"depth": ("depth", 1e3 * z, "mm", "below the surface")}
     for name, at in places.items():
         found[f"{name}_pressure"] = "side", 1e-9 * at[:, 1], "GPa", f"pressure, worst of {name}"
@@ -91,7 +96,7 @@ def depth_variables(places: dict[str, Array], settings: DamageSettings) -> dict[
         found["greatest_shear"] = _AT, 1e-6 * rows[2], "MPa", "greatest shear"
         found["fatigue_profile"] = _AT, rows[3], "1", "Dang Van's number, compression helps"
         found["fatigue_bound_profile"] = _AT, rows[4], "1", "the same, compression does not help"
-    return found if places else {}
+    return found
 
 
 def _fracture(

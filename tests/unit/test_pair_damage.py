@@ -28,6 +28,7 @@ from gearlube_core.rating.life import miner_sum
 from gearlube_core.rating.micropitting import TEST_POINT
 from gearlube_core.rating.scuffing import flash_rating
 from gearlube_core.rating.spectrum import DutyBins
+from gearlube_core.rating.subsurface import CaseHardening
 from tests.helpers.helical_contact_cases import even_contact
 
 K_WEAR = 5e-18  # 1/Pa
@@ -278,7 +279,12 @@ def test_gear_files_of_pairs_are_known_from_axles(tmp_path):
 
 
 def test_under_a_line_of_the_pair_is_the_stress_of_a_line_load():
-    found = run_damage(damage_of(fatigue=FatigueLimits(bending=640e6, torsion=400e6)))
+    limits, case = FatigueLimits(bending=640e6, torsion=400e6), CaseHardening(720.0, 342.0, 0.8e-3)
+    found = run_damage(damage_of(fatigue=limits, case=case))
+    # the half width is small; the depths begin there all the same
+    assert float(found["fracture_profile"].max()) == pytest.approx(
+        float(found["fracture"].max()), rel=1e-6
+    )
     p = 1e9 * found["fatigue_pressure"].values[0]
     assert p == pytest.approx(1e9 * found["pressure"].values.max(), rel=1e-6)
     # of a line load without friction; friction adds less than 1 %, strips have no thin ends

@@ -71,7 +71,7 @@ def test_a_line_load_has_its_greatest_shear_where_hertz_has_it(smooth):
             ("shear_amplitude", "fracture", 0.250, 0.5),
         ):
             p, a = 1e3 * float(of_side[f"{of}_pressure"]), float(of_side[f"{of}_half_width"])
-            # planes of 2 degrees and a grid of a/24: 0.5 %; depths are 0.05 a apart
+            # planes of 2 degrees and a grid of a/24: 0.5 %; depths are 4 % apart
             assert float(of_side[name].max()) == pytest.approx(share * p, rel=0.005)
             found = z[np.nanargmax(of_side[name].values)]
             assert found == pytest.approx(at * a, abs=0.06 * a)
@@ -105,13 +105,13 @@ def test_flank_fracture_needs_the_depth_of_the_contact(smooth):
 
 
 def test_the_worst_of_bins_profile_and_map_is_one_number(smooth):
-    # depths are 0.05 a apart, and cells of the map lie between lines: 2 %
+    # depths are 4 % apart and the top is flat, and cells of the map lie between lines: 1 %
     for name, profile in (("fracture", "fracture_profile"), ("fatigue", "fatigue_bound_profile")):
         for k, side in enumerate(("drive", "coast")):
             of_bin = float(smooth[name][k])
-            assert float(smooth[profile].sel(side=side).max()) == pytest.approx(of_bin, rel=0.02)
+            assert float(smooth[profile].sel(side=side).max()) == pytest.approx(of_bin, rel=0.01)
             assert float(smooth[f"{name}_map"].sel(side=side).max()) == pytest.approx(
-                of_bin, rel=0.02
+                of_bin, rel=0.01
             )
 
 
