@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearlube_core.arrays import Array
 from gearlube_core.contact.solid import Solid
@@ -76,25 +77,20 @@ def places_along(states: FlankStates) -> Array:
     return _WITHIN if states.strips else _ACROSS
 
 
-def tooth_maps(
-    states: FlankStates,
-    damage: FlankDamage,
-    tooth_size: tuple[float, float],
-    lines: Mapping[str, Array] | None = None,
-) -> dict[str, Array]:
-    """Return the quantities of `POWERS` on the drawn gear tooth, (HIGH, WIDE); 0: no contact.
+class ContactLines(NamedTuple):
+    """Contact lines of N states and between them, on a drawn tooth."""
 
-    And those of `lines`, each known at `places_along` every contact line, shape (N, places).
+    at: tuple[Array, Array]  # places along the tooth and up, 0 to 1 within its edges, (lines, n)
+    inside: NDArray[np.bool_]  # whether a place is within the edges
+    profile: Array  # of the load along a line, 1 - (y/b)^2; of a strip 1
+    between: Callable[[Array], Array]  # values of the states, (N,) or (N, n), at the lines
 
-    Every point of a flank is passed by the contact line once. Lines are laid between the states, as
-    long as the Hertz ellipse, and cut off at the edges of the tooth; strips are laid as they are.
-    Pressure, temperature and heat are the largest while the line passes, the film the thinnest;
-    wear is that of one pass. The pinion is drawn where it touches the gear.
-    """
+
+def contact_lines(states: FlankStates, tooth_size: tuple[float, float]) -> ContactLines:
+    """Return the lines on a tooth of a size along and up [m], as long as the ellipse or strip."""
     n = states.load.size
     fine = np.linspace(0.0, n - 1.0, n if states.strips else _FINER * n)
     across = places_along(states)
-    profile = np.ones_like(across) if states.strips else 1.0 - across**2
     low = fine.astype(int)
     high, share = np.minimum(low + 1, n - 1), (fine - low)[:, None]
 
@@ -102,21 +98,45 @@ def tooth_maps(
         rows = values.reshape(n, -1)
         return np.asarray(rows[low] + share * (rows[high] - rows[low]))
 
-    at, cells = [], []
-    for axis, (size, count) in enumerate(zip(tooth_size, (WIDE, HIGH), strict=True)):
-        along = between(states.semi_major * states.major[:, axis]) * across
-        at.append((between(states.place[:, axis]) + along) / size)
-        cells.append((at[-1] * count).astype(int))
-    inside = (at[0] >= 0.0) & (at[0] < 1.0) & (at[1] >= 0.0) & (at[1] < 1.0)
-    cell = (cells[1] * WIDE + cells[0])[inside]
-    every = {name: between(one) for name, one in (lines or {}).items()}
+    x, y = (
+        (between(states.place[:, k]) + between(states.semi_major * states.major[:, k]) * across)
+        / size
+        for k, size in enumerate(tooth_size)
+    )
+    inside = (x >= 0.0) & (x < 1.0) & (y >= 0.0) & (y < 1.0)
+    profile = np.ones_like(across) if states.strips else 1.0 - across**2
+    return ContactLines((x, y), inside, profile, between)
+
+
+def tooth_maps(
+    states: FlankStates,
+    damage: FlankDamage,
+    tooth_size: tuple[float, float],
+    along: Mapping[str, Array] | None = None,
+) -> dict[str, Array]:
+    """Return the quantities of `POWERS` on the drawn gear tooth, (HIGH, WIDE); 0: no contact.
+
+    And those of `along`, each known at `places_along` every contact line, shape (N, places).
+
+    Every point of a flank is passed by the contact line once. Lines are laid between the states, as
+    long as the Hertz ellipse, and cut off at the edges of the tooth; strips are laid as they are.
+    Pressure, temperature and heat are the largest while the line passes, the film the thinnest;
+    wear is that of one pass. The pinion is drawn where it touches the gear.
+    """
+    lines = contact_lines(states, tooth_size)
+    columns, rows = (
+        (one[lines.inside] * count).astype(int)
+        for one, count in zip(lines.at, (WIDE, HIGH), strict=True)
+    )
+    cell = rows * WIDE + columns
+    every = {name: lines.between(one) for name, one in (along or {}).items()}
     for name, power in POWERS.items():
-        every[name] = between(getattr(damage, name)) * profile**power
+        every[name] = lines.between(getattr(damage, name)) * lines.profile**power
     maps = {}
     for name, values in every.items():
         values = 1.0 / values if name == "film" else values
         found = np.zeros(HIGH * WIDE)
-        np.maximum.at(found, cell, values[inside])
+        np.maximum.at(found, cell, values[lines.inside])
         maps[name] = found.reshape(HIGH, WIDE)
     film = maps["film"]
     maps["film"] = np.divide(1.0, film, out=np.zeros_like(film), where=film > 0.0)
