@@ -221,6 +221,7 @@ class HypoidGearFile(InputFile):
             lead_crown=found.lead_crown_um * 1e-6,
             twist=found.twist_um * 1e-6,
             surface=tuple(value * 1e-6 for value in found.surface_um),
+            worn=tuple(value * 1e-6 for value in found.worn_um),
         )
 
     def origin(self, field: str) -> Origin:

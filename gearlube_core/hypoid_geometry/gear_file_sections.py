@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank, MemberBlank
-from gearlube_core.hypoid_geometry.flank.correction import surface_degree
+from gearlube_core.hypoid_geometry.flank.correction import WORN_GRID, surface_degree
 from gearlube_core.input_file.field_notes import Declared, Usual
 from gearlube_core.input_file.input_file import Section
 
@@ -36,6 +36,7 @@ Removal = Annotated[float, Field(ge=0.0, le=500.0, allow_inf_nan=False), Usual(1
 Crown = Annotated[float, Field(ge=-500.0, le=500.0, allow_inf_nan=False), Usual(0.5, 200.0)]
 # terms of a polynomial may be as small as they come
 Coefficients = Annotated[tuple[Annotated[Crown, Usual(0.0, 200.0)], ...], Field(strict=False)]
+Depths = Annotated[tuple[Annotated[Removal, Usual(0.0, 200.0)], ...], Field(strict=False)]
 Extent = Annotated[float, Field(gt=0.0, le=200.0, allow_inf_nan=False), Usual(0.1, 60.0)]
 Rounding = Annotated[float, Field(ge=0.0, le=2.0, allow_inf_nan=False), Usual(0.02, 1.5)]
 
@@ -252,6 +253,12 @@ class FlankRelief(Section):
         "to 1 at the heel. Written by `gearlube measured`; 1, 3, 6, 10, 15 or 21 numbers, each "
         "-500 to 500 um",
     )
+    worn_um: Depths = Field(
+        (),
+        description="Wear, as coefficients of 16 x 32 cubic B-splines: from the root line to the "
+        "tip, in each row from toe to heel. Written by `gearlube damage`; none or 512 numbers, "
+        "each 0 to 500 um",
+    )
 
     @model_validator(mode="after")
     def _check_reliefs(self) -> FlankRelief:
@@ -260,8 +267,14 @@ class FlankRelief(Section):
                 surface_degree(len(self.surface_um))
             except ParameterError as reason:
                 raise ValueError(str(reason).replace("surface must", "surface_um must")) from None
+        if len(self.worn_um) not in (0, WORN_GRID[0] * WORN_GRID[1]):
+            raise ValueError(
+                f"worn_um must hold none or {WORN_GRID[0] * WORN_GRID[1]} numbers, got "
+                f"{len(self.worn_um)}. Take those of the worn gear file that `gearlube damage` "
+                "writes"
+            )
         for name in type(self).model_fields:
-            if name == "surface_um":
+            if name in ("surface_um", "worn_um"):
                 continue
             amount = abs(getattr(self, name) or 0.0)
             if name.endswith("_um") and 0.0 < amount < _LEAST_RELIEF:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
+from scipy.interpolate import BSpline
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
@@ -17,6 +18,7 @@ _METRES = "Give metres, not micrometres or millimetres."
 _MOST = 1e-3  # m
 _LONGEST = 0.5  # m
 _MOST_DEGREE = 5  # of a surface
+WORN_GRID = (16, 32)  # cubic B-splines from root to tip, and from toe to heel
 
 
 class Bends(NamedTuple):
@@ -95,7 +97,7 @@ def rounding(edge: Edge, radius: float) -> EdgeRelief:
 class FlankCorrection:
     """Corrections of one flank of one member.
 
-    m = sum of reliefs + c_h x^2 + c_l y^2 + w x y + sum of a_ij x^i y^j
+    m = sum of reliefs + c_h x^2 + c_l y^2 + w x y + sum of a_ij x^i y^j + sum of b_ij B_i(s) B_j(t)
 
     x = 2s - 1, y = 2t - 1, with the profile position s, root 0 to tip 1, and the face position t,
     toe 0 to heel 1.
@@ -111,6 +113,10 @@ class FlankCorrection:
     surface : tuple of float
         a_ij [m] by rising degree, in each by falling power of x: 1, x, y, x^2, x y, y^2, ...; none
         or 1, 3, 6, 10, 15 or 21 of them. Below 0 material stands over the flank as cut.
+    worn : tuple of float
+        b_ij [m] of wear, row by row from root to tip, each from toe to heel; none or as many as
+        `WORN_GRID` has. The splines B are those of `worn_splines`: wherever all b are 0 or more,
+        nothing is added to the flank.
 
     Raises
     ------
@@ -129,6 +135,7 @@ class FlankCorrection:
     lead_crown: float = 0.0
     twist: float = 0.0
     surface: tuple[float, ...] = ()
+    worn: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("profile_crown", "lead_crown", "twist"):
@@ -137,13 +144,19 @@ class FlankCorrection:
             surface_degree(len(self.surface))
         for value in self.surface:
             check_within("surface", value, -_MOST, _MOST, "m", _METRES)
+        if self.worn:
+            cells = WORN_GRID[0] * WORN_GRID[1]
+            check_within("number of worn", len(self.worn), cells, cells, "", "Or give none.")
+        for value in self.worn:
+            check_within("worn", value, 0.0, _MOST, "m", _METRES)
 
     @property
     def is_none(self) -> bool:
         """Whether nothing is removed."""
         return not (
-            self.reliefs or self.profile_crown or self.lead_crown or self.twist or any(self.surface)
-        )
+            self.reliefs or self.profile_crown or self.lead_crown or self.twist
+            or any(self.surface) or any(self.worn)
+        )  # fmt: skip
 
     def bends(self, s: Array, t: Array, height: float, width: float) -> Bends:
         """Return removal and derivatives at s, t (...) of a tooth `height` and `width` [m].
@@ -177,7 +190,33 @@ class FlankCorrection:
             by_hh = by_hh + a_ij * x_2 * y_0 * x_h**2
             by_hl = by_hl + a_ij * x_1 * y_1 * x_h * y_l
             by_ll = by_ll + a_ij * x_0 * y_2 * y_l**2
-        return Bends(value, by_h, by_l, by_hh, by_hl, by_ll)
+        found = Bends(value, by_h, by_l, by_hh, by_hl, by_ll)
+        return self._with_wear(found, x, y, height, width) if any(self.worn) else found
+
+    def _with_wear(self, found: Bends, x: Array, y: Array, height: float, width: float) -> Bends:
+        places = [np.ravel(0.5 * (one + 1.0)) for one in np.broadcast_arrays(x, y)]
+        up, along = (
+            [worn_splines(place, count, n) / size**n for n in range(3)]
+            for place, count, size in zip(places, WORN_GRID, (height, width), strict=True)
+        )
+        b = np.reshape(self.worn, WORN_GRID)
+        orders = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))  # as in `Bends`
+        added = (np.einsum("ni,ij,nj->n", up[m], b, along[n]) for m, n in orders)
+        return Bends(*(one + more.reshape(x.shape) for one, more in zip(found, added, strict=True)))
+
+
+def worn_splines(place: Array, count: int, derivative: int = 0) -> Array:
+    """Return cubic B-splines, or a derivative, at places 0 to 1 of a flank, (N, count) [-].
+
+    None is below 0, and their sum is 1; beyond the edges they are those at the edge.
+
+    >>> worn_splines(np.array([0.0, 0.3]), 5).sum(axis=1)
+    array([1., 1.])
+    """
+    knots = np.concatenate([np.zeros(3), np.linspace(0.0, 1.0, count - 2), np.ones(3)])
+    splines = BSpline(knots, np.eye(count), 3)
+    found = np.asarray(splines(np.clip(place, 0.0, 1.0), nu=derivative))
+    return found if derivative == 0 else found * ((place >= 0.0) & (place <= 1.0))[:, None]
 
 
 def surface_degree(count: int) -> int:
