@@ -79,6 +79,14 @@ def damage(
     wear_of_all_load: Annotated[
         bool, typer.Option("--wear-of-all-load", help="Films spare nothing: an upper bound.")
     ] = False,
+    wear_steps: Annotated[
+        int,
+        typer.Option(
+            help="Most steps of wear of 1 µm, after each of which the contact is solved again "
+            "(about half a minute). 0: the rate of the new flank alone.",
+            min=0,
+        ),
+    ] = 0,
     pinion_bearings_kn: Annotated[
         list[float] | None,
         typer.Option(help="C, or C and C_0, of the pinion's bearings [kN].", metavar="C C_0..."),
@@ -166,12 +174,14 @@ def damage(
     from gearlube.damage.run import run_damage
     from gearlube.damage.settings import (
         DamageSettings,
+        gear_file_of,
         rated_bearing,
         rated_gears,
         rated_pair,
         together,
     )
     from gearlube.damage.summary import SUMMARY_HEAD
+    from gearlube.damage.wear_steps import POSITIONS
     from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.report.parts import Input
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
@@ -189,7 +199,8 @@ def damage(
     fatigue = {
         "--torsion-limit-mpa": torsion_limit_mpa, "--bending-fatigue-mpa": bending_fatigue_mpa,
     }  # fmt: skip
-    with study_run("damage", out, overwrite=overwrite) as run:
+    stopped = f"Stopped. Steps of wear go on from {out / POSITIONS} with the same command."
+    with study_run("damage", out, overwrite=overwrite, stopped=stopped) as run:
         case = together(hardness, "720 and 342 HV with 0.5 mm are an example.")
         steel = together(fatigue, "260 and 398 MPa are those of quenched 42CrMo4.")
         limits = treatment, contact_limit_mpa, bending_limit_mpa
@@ -198,7 +209,7 @@ def damage(
         of_axle = {
             "--gears": gears or None, "--cleanliness": cleanliness,
             "--pinion-bearings-kn": pinion_bearings_kn, "--gear-bearings-kn": gear_bearings_kn,
-            "--raceway-roughness-um": raceway_roughness_um,
+            "--raceway-roughness-um": raceway_roughness_um, "--wear-steps": wear_steps or None,
         }  # fmt: skip
         of_pair = {
             "--oil": oil, "--roughness-um": roughness_um, "--load-stage": load_stage,
@@ -251,6 +262,8 @@ def damage(
             factors=LoadFactors(face=face_factor, application=application_factor),
             wear_coefficient=wear_coefficient,
             wear_of_all_load=wear_of_all_load,
+            wear_steps=wear_steps,
+            gear_file=gear_file_of(gear_set, gears) if wear_steps else None,
             bearings=(None, None)
             if car is None
             else (
@@ -280,6 +293,7 @@ def damage(
             "K_H beta": face_factor,
             "K_A": application_factor,
             "k of wear [1/Pa]": wear_coefficient,
+            "most steps of wear": wear_steps or None,
             "wear of all load": wear_of_all_load if wear_coefficient is not None else None,
             "C, C_0 of the pinion's bearings [kN]": pinion_bearings_kn,
             "C, C_0 of the gear's bearings [kN]": gear_bearings_kn,
@@ -299,5 +313,6 @@ def damage(
         for row in report.tables[0].rows:
             table.add_row(str(row[0]), str(row[1]), str(row[3]), str(row[5]))
         run.show(table)
-        run.written("damage.nc", "damage.csv", "summary.csv", "figures")
+        worn = ("worn.toml", "worn.nc") if wear_steps else ()
+        run.written("damage.nc", "damage.csv", "summary.csv", "figures", *worn)
         run.finish(report)

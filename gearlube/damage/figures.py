@@ -33,6 +33,7 @@ _OVER_DEPTH = {
 _BARS = {"contact_damage": "pitting damage by the standard", "wear": "wear depth [µm]"}
 _SHOWN, _LEAST = 10, 1e-3  # bins in a chart, and the share of the sum that is shown
 _NARROW = 2.0  # width over height, below which a tooth fills its panel
+_FAINT = 0.01  # of the deepest wear; what the splines spread farther is not drawn
 _INSIDE = 99.0  # percent of the cells that the colours span
 
 
@@ -42,7 +43,8 @@ def damage_figures(dataset: xr.Dataset) -> dict[str, Any]:
     maps = {f"maps_{side}": tooth_figure(dataset.sel(side=side), side) for side in sides}
     kept = {name: words for name, words in _BARS.items() if name in dataset and dataset[name].any()}
     under = {"under_surface": depth_figure(dataset, sides)} if "depth" in dataset else {}
-    return maps | under | ({"bins": bin_figure(dataset, kept)} if kept else {})
+    steps = {"wear_steps": steps_figure(dataset)} if "worn_life" in dataset else {}
+    return maps | under | steps | ({"bins": bin_figure(dataset, kept)} if kept else {})
 
 
 def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
@@ -99,6 +101,41 @@ def depth_figure(dataset: xr.Dataset, sides: Sequence[str]) -> Any:
             axes[-1, k].axhline(1.0, color="0.4", linestyle=":", linewidth=1.0)
             axes[-1, k].set_xlabel("depth below the flank [mm]")
         figure.suptitle("Under the surface, at the worst place of the whole life", fontsize=10.5)
+    return figure
+
+
+def steps_figure(dataset: xr.Dataset) -> Any:
+    """Return depth over the life, pressure and maps of the side that wears most."""
+    side = int(dataset["worn_depth"].values[-1].max(axis=1).argmax())
+    found = dataset.isel(side=side)
+    hours = found["worn_life"].values * float(dataset["hours"].sum())
+    x, y = dataset["along"].values, dataset["up"].values
+    tooth = DrawnTooth(float(x[0] + x[-1]), float(y[0] + y[-1]))
+    with house_style():
+        figure = new_figure(10.5, 5.6)
+        (over, profile), maps = figure.subplots(2, 2, height_ratios=(1.6, 1.0))
+        for member, role in enumerate(("pinion", "gear")):
+            (line,) = over.plot(hours, found["worn_depth"][:, member], "o-", label=role)
+            rate = found["worn_rate"].values[0, member] * found["worn_life"].values
+            over.plot(
+                hours, rate, ":", color=line.get_color(), label=f"{role}, rate of the new flank"
+            )
+            worn = found["worn_map"].values[member]
+            shown = np.where(worn > _FAINT * worn.max(), worn, np.nan)
+            image = maps[member].pcolormesh(
+                x, y, shown, cmap="cividis_r", vmin=0.0, rasterized=True
+            )
+            tooth.draw(maps[member], f"wear depth, {role}")
+            figure.colorbar(image, ax=maps[member], label="µm", shrink=0.85)
+        over.set(xlabel="hours", ylabel="wear depth at the worst place [µm]")
+        for step, style, words in ((0, "--", "new"), (-1, "-", "worn")):
+            profile.plot(dataset["worn_phase"], found["worn_profile"][step], style, label=words)
+        profile.set(xlabel="mesh periods of a pair", ylabel="Hertz pressure [GPa]")
+        for ax in (over, profile):
+            ax.set_ylim(0.0)
+            ax.legend()
+        name = str(dataset["side"].values[side])
+        figure.suptitle(f"Wear in steps, {name} side. {tooth.words.where}", fontsize=10.5)
     return figure
 
 

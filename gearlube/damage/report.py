@@ -31,8 +31,10 @@ _TITLES = {
     "maps_coast": "Coast side of the teeth",
     "under_surface": "Under the surface",
     "bins": "The bins that matter most",
+    "wear_steps": "Wear in steps",
 }
 _WORST, _LEAST_PECLET = 3, 5.0
+_SETTLED = 1.0  # percent by which the rate of wear changes with a micrometre
 _MUCH = 0.05  # share of the load at an edge, or outside a model, that is worth a word
 _LIMITS = (
     "Calculated by the formulas of the standards as implemented here, not certified. Check a "
@@ -49,6 +51,8 @@ _CAPTIONS = {
     "fracture holds from the half width of the contact on, the number of Dang Van is known down to "
     "8 of them. Residual stress is left out.",
     "bins": "The bins that do most, at most ten, with torque, speed and oil temperature.",
+    "wear_steps": "The side that wears most. The contact is solved again after each step on the "
+    "worn flanks; the pressure is of the highest torque, the maps are of the end.",
 }
 _CAPTION = (
     "Each place shows its worst bin; wear and damage are sums over all bins. White: no contact, or "
@@ -104,6 +108,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         *_strength(dataset),
         *(Finding(NOTE, *words) for words in json.loads(dataset.attrs["notes"])),
         *_worst(dataset),
+        *_worn(dataset),
         *_doubts(dataset),
         *(Finding(WARNING, words) for words in outside),
     ]
@@ -155,6 +160,34 @@ def _worst(dataset: xr.Dataset) -> list[Finding]:
     order = np.argsort(values)[::-1][:_WORST]
     parts = "; ".join(f"{_bins(dataset)[i]} ({shares[i]:.0f} %)" for i in order if shares[i] > 0.5)
     return [Finding(NOTE, f"These bins do most of the {ranked[name]}: {parts}.")]
+
+
+def _worn(dataset: xr.Dataset) -> list[Finding]:
+    """Return what steps of wear made of contact and noise."""
+    if "worn_life" not in dataset:
+        return []
+    steps, life = dataset.sizes["step"] - 1, float(dataset["worn_life"][-1])
+    side = int(dataset["worn_depth"].values[-1].max(axis=1).argmax())
+    pinion, gear = dataset["worn_depth"].values[-1, side]
+    pressure, error = (dataset[one].values[:, side] for one in ("worn_pressure", "worn_error"))
+    rate = dataset["worn_rate"].values[:, side].max(axis=1)
+    depth = rate[-2] * float(np.diff(dataset["worn_life"])[-1])  # of the last step
+    falls = 100.0 * (1.0 - rate[-1] / rate[-2]) / depth if depth > 0.0 else 0.0
+    left = ""
+    if life < 1.0:
+        left = f" A whole life takes about {steps / max(life, 1e-3):.0f} steps: give --wear-steps."
+    return [
+        Finding(
+            NOTE if life >= 1.0 else WARNING,
+            f"After {steps} steps, {100.0 * life:.3g} % of the life, the "
+            f"{dataset['side'].values[side]} flanks have lost {number_text(pinion)} µm of the "
+            f"pinion and {number_text(gear)} µm of the gear.",
+            f"Largest Hertz pressure: from {pressure[0]:.3g} to {pressure[-1]:.3g} GPa. Loaded "
+            f"transmission error: from {error[0]:.3g} to {error[-1]:.3g} µm, peak to peak. "
+            f"At the end the rate of wear falls by {falls:.2g} % with each µm: the pattern "
+            f"{'has settled' if abs(falls) < _SETTLED else 'still changes'}.{left}",
+        )
+    ]
 
 
 def _doubts(dataset: xr.Dataset) -> list[Finding]:

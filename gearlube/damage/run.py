@@ -18,6 +18,7 @@ from gearlube.damage.settings import DamageSettings
 from gearlube.damage.summary import SUMMARY_HEAD, summary_rows
 from gearlube.damage.teeth import Teeth
 from gearlube.damage.under_surface import depth_variables, under_surface
+from gearlube.damage.wear_steps import wear_in_steps
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.cycle import variables_of
@@ -98,11 +99,11 @@ def run_damage(
     """
     teeth, bins, rate = settings.teeth, settings.bins, settings.rate
     ratio = teeth.ratio
-    count = bins.torque.size
+    count, part = bins.torque.size, 0.1 if settings.wear_steps else 0.9
     cycles = np.stack([bins.revolutions, bins.revolutions / ratio], axis=1)
     solved = []
     for i in range(count):
-        progress(0.9 * i / count, f"bin {i + 1} of {count}")
+        progress(part * i / count, f"bin {i + 1} of {count}")
         solved.append(_solved(settings, teeth, rate, i, cycles[i]))
     values = {name: np.array([one[name] for one in solved]) for name in solved[0]}
     shown = {name: words for name, words in _OF_BINS.items() if name in values}
@@ -120,7 +121,7 @@ def run_damage(
     }
     beside = teeth.beside(bins, settings.gears, settings.factors)
     if rate is not None:
-        progress(0.9, "torque factors")
+        progress(part, "torque factors")
         damage, factors = _torque_factors(bins, rate, ratio)
         outside = "\n".join(dict.fromkeys((*damage.outside, *beside.outside)))
         one["contact_damage"] = _MEMBER, damage.contact, "1", "pitting damage of the standard"
@@ -183,6 +184,14 @@ def run_damage(
     if settings.test_torque is not None:
         limit = teeth.permissible(settings.test_torque, settings.test_bulk)
         dataset.attrs["permissible_film"] = limit
+    if settings.wear_steps:
+        dataset = dataset.merge(
+            wear_in_steps(
+                settings,
+                folder=folder,
+                progress=lambda done, words: progress(0.1 + 0.9 * done, words),
+            )
+        )
     dataset.attrs["summary"] = json.dumps(summary_rows(dataset, settings, beside.rows))
     if folder is not None:
         _write(dataset, folder)

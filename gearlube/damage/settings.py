@@ -52,6 +52,13 @@ class DamageSettings(Checked):
     wear_of_all_load
         Whether films spare nothing: the coefficients of tests count the whole load. False: only the
         load on asperities wears, a hypothesis; its share depends on the law of friction.
+    wear_steps
+        Most steps of wear, after each of which the contact is solved again, see `wear_in_steps`; 0:
+        the rate of the new flank alone.
+    wear_step
+        Depth of both members together in one of them, at the worst place [m].
+    gear_file
+        Gear file of the axle's gears, for steps of wear; see `gear_file_of`.
     bearings
         Of the pinion's and of the gear's shaft, see `rated_bearing`; None: no life.
     cleanliness
@@ -89,6 +96,9 @@ class DamageSettings(Checked):
         float | None, Number("1/Pa", 0.0, 1e-11, "Measured ones lie within 1e-19 to 1e-15.")
     ] = None
     wear_of_all_load: bool = False
+    wear_steps: Annotated[int, Number("", 0, 1000, "Each is an analysis of the contact.")] = 0
+    wear_step: Annotated[float, Number("m", 1e-8, 1e-4, "1 um is 1e-6.")] = 1e-6
+    gear_file: HypoidGearFile | None = None
     bearings: tuple[RatedBearing | None, RatedBearing | None] = (None, None)
     cleanliness: str | None = None
     raceway_roughness: Annotated[float | None, Number("m", 1e-9, 1e-5, "0.2 um is 2e-7.")] = None
@@ -116,6 +126,20 @@ class DamageSettings(Checked):
             self.teeth.oil.check_temperature(float(temperature), "temperature of a bin")
         if self.test_torque is not None:
             self.teeth.oil.check_temperature(self.test_bulk, "test_bulk")
+        if self.wear_steps:
+            self.worn  # noqa: B018  fails here, before any work
+
+    @property
+    def worn(self) -> tuple[CarAxle, HypoidGearFile]:
+        """Axle and gear file, which steps of wear need, and with them a coefficient."""
+        if self.car is None or self.gear_file is None or self.wear_coefficient is None:
+            raise ParameterError(
+                "Steps of wear must have an axle, a gear file and a wear coefficient, got "
+                f"{self.car and self.car.name}, {self.gear_file and self.gear_file.name} and "
+                f"{self.wear_coefficient}. Give --wear-coefficient, and --gears where the axle "
+                "names no gear file."
+            )
+        return self.car, self.gear_file
 
     @cached_property
     def teeth(self) -> Teeth:
@@ -184,16 +208,27 @@ def rated_pair(
     material = rated_gears(treatment, contact_mpa, bending_mpa)
     if material is None:
         return None, None
+    return material, gear_file_of(axle, gears).blank()
+
+
+def gear_file_of(axle: str, gears: str = "") -> HypoidGearFile:
+    """Return the gear file of an axle's gears; arguments as in `rated_pair`.
+
+    Raises
+    ------
+    ParameterError
+        Nothing names a gear file.
+    """
     named = AxleFile.given(axle).gear_set
     if not gears and named.gear_file is not None:
         gears = str(Path(axle).parent / named.gear_file)
     gears = gears or str(named.mesh_table)
     if not gears.endswith(".toml") and gears not in HypoidGearFile.shipped():
         raise ParameterError(
-            f"The standard needs the gear file of the axle's gears, got the mesh table {gears!r} "
-            "alone. Name the gear file with --gears."
+            "The standard, and steps of wear, must have the gear file of the axle's gears, got the "
+            f"mesh table {gears!r} alone. Name the gear file with --gears."
         )
-    return material, HypoidGearFile.given(gears).blank()
+    return HypoidGearFile.given(gears)
 
 
 def rated_bearing(size: Bearing, ratings_kn: Sequence[float] | None) -> RatedBearing | None:

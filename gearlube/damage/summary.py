@@ -75,6 +75,13 @@ def summary_rows(
         by = f"Archard, k = {settings.wear_coefficient:g} 1/Pa, {whose}, the new flank's rate"
         limit = f"{_WEAR_LIMIT:g} µm"
         rows.append((f"wear, {role}", f"{number_text(depth)} µm", limit, "", "", verdict, by))
+    for j, role in enumerate(("pinion", "gear") if "worn_life" in dataset else ()):
+        steps, life = dataset.sizes["step"] - 1, float(dataset["worn_life"][-1])
+        depth = float(dataset["worn_depth"][-1, :, j].max())
+        verdict = f"{100.0 * life:.0f} % of the life"
+        by = f"Archard, {whose}, the contact solved again after each step"
+        name = f"wear after {steps} steps, {role}"
+        rows.append((name, f"{number_text(depth)} µm", "", "", "", verdict, by))
     for name, words, by in (
         ("bearing_damage", "basic life", "ISO/TS 16281:2008, load of each roller"),
         ("bearing_damage_modified", "modified life", "the same with a_ISO"),

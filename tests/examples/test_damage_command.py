@@ -124,6 +124,13 @@ def test_a_pair_and_an_axle_refuse_what_is_not_theirs(bins, tmp_path, caplog):
     assert not (tmp_path / "out").exists()
 
 
+def test_steps_of_wear_need_a_coefficient(bins, tmp_path, caplog):
+    done = run("--cycle", bins, "--wear-steps", 3, "--out", tmp_path / "out")
+    assert done.exit_code == BAD_ARGUMENT
+    assert "Steps of wear must have an axle, a gear file and a wear coefficient" in caplog.text
+    assert not (tmp_path / "out").exists()
+
+
 def test_the_example_is_a_table_of_bins():
     done = run("--example")
     assert done.exit_code == 0
