@@ -67,8 +67,12 @@ def damage(
         str, typer.Option(help="case_hardened, nitrided, through_hardened, ...")
     ] = "case_hardened",
     face_factor: Annotated[
-        float, typer.Option(help="K_H beta of the standard; 1.65: light check, one overhung.")
-    ] = 1.65,
+        float | None,
+        typer.Option(
+            help="K_H beta of the standard. Default: of a pair that of the solved contact, of an "
+            "axle 1.65, light check and one member overhung."
+        ),
+    ] = None,
     application_factor: Annotated[
         float, typer.Option(help="K_A: what the torques of the bins lack.")
     ] = 1.0,
@@ -181,6 +185,7 @@ def damage(
         together,
     )
     from gearlube.damage.summary import SUMMARY_HEAD
+    from gearlube.damage.teeth import BEVEL_FACE
     from gearlube.damage.wear_steps import POSITIONS
     from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.report.parts import Input
@@ -253,13 +258,14 @@ def damage(
                     contact, edition=edition or "2006", load_stage=load_stage,
                     test_torque=load_stage_torque_nm, store=out / "contact", progress=progress,
                 )  # fmt: skip
+        face = face_factor or (BEVEL_FACE if teeth is None else teeth.face(bins))
         settings = DamageSettings(
             car=car,
             pair=teeth,
             bins=bins,
             gears=material,
             blank=blank,
-            factors=LoadFactors(face=face_factor, application=application_factor),
+            factors=LoadFactors(face=face, application=application_factor),
             wear_coefficient=wear_coefficient,
             wear_of_all_load=wear_of_all_load,
             wear_steps=wear_steps,
@@ -290,7 +296,7 @@ def damage(
             "contact limit [MPa]": contact_limit_mpa,
             "bending limit [MPa]": bending_limit_mpa,
             "treatment": treatment if material else None,
-            "K_H beta": face_factor,
+            "K_H beta": round(face, 3),
             "K_A": application_factor,
             "k of wear [1/Pa]": wear_coefficient,
             "most steps of wear": wear_steps or None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from gearlube.studies.helical.stages import analyse_loaded_contact
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.dynamics.helical_pair.flank_states import face_load, helical_flank_states
 from gearlube_core.errors import ParameterError
+from gearlube_core.friction.flank_states import FlankStates
 from gearlube_core.helical_contact.contact_dataset import HelicalContact
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.helical_geometry.pair import HelicalPair
@@ -147,6 +148,12 @@ def helical_teeth(
     ratio = pair.transverse_contact_ratio
     rated = _RATIOS[0] <= ratio <= _RATIOS[1]
     why = f"the transverse contact ratio must be within 1 to 4, got {ratio:.3f}. Use longer teeth"
+
+    def states(torque: float, speed: float, temperature: float) -> FlankStates:
+        return helical_flank_states(
+            pair, mesh, film, torque=torque, speed=speed, temperature=temperature, highest=highest
+        )
+
     teeth = Teeth(
         name=pair.name,
         ratio=pair.ratio,
@@ -156,9 +163,7 @@ def helical_teeth(
         torques=(-top, top),
         cure="The contact is solved up to there: give larger torques to the settings of the pair.",
         solved_torque=top,
-        states=lambda torque, speed, temperature: helical_flank_states(
-            pair, mesh, film, torque=torque, speed=speed, temperature=temperature, highest=highest
-        ),
+        states=states,
         rating=(lambda torque: partial(cylindrical_rating, pair, edition=edition))
         if rated
         else None,
@@ -167,9 +172,21 @@ def helical_teeth(
         drawn_size=(pair.face_width, pair.contact_end - pair.contact_start),
         limits=_LIMITS,
         permissible=partial(permissible_line_ratio, film),
+        face=partial(solved_face, pair, states),
         withheld="" if rated else why,
     )
     return teeth._replace(beside=partial(_beside, pair, teeth, load_stage, test_torque))
+
+
+def _hardest(bins: DutyBins) -> int:
+    return int(np.abs(bins.torque).argmax())
+
+
+def solved_face(
+    pair: HelicalPair, states: Callable[[float, float, float], FlankStates], bins: DutyBins
+) -> float:
+    """Return K_H beta of the solved contact in the bin with the largest torque."""
+    return max(face_load(pair, states(*(one[_hardest(bins)] for one in bins[:3])))[0], 1.0)
 
 
 def _beside(
@@ -177,9 +194,8 @@ def _beside(
     bins: DutyBins, gears: Gears | None, factors: LoadFactors,
 ) -> Beside:  # fmt: skip
     """Return scuffing and micropitting by the standard, and the load factor of the contact."""
-    hardest = int(np.abs(bins.torque).argmax())
-    found = teeth.states(*(float(one[hardest]) for one in bins[:3]))
-    face, whole = face_load(pair, found)
+    hardest = _hardest(bins)
+    face, whole = face_load(pair, teeth.states(*(one[hardest] for one in bins[:3])))
     note = (
         f"K_Hβ is {factors.face:.2f} in the standard and {face:.2f} in the solved contact.",
         f"Greatest over mean load along the face, in the bin {bin_words(bins, hardest)}. Of all "

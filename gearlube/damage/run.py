@@ -119,7 +119,7 @@ def run_damage(
         "cycles": (_MEMBER, cycles, "1", "load cycles of a tooth"),
         **{name: (at, values[name], *words) for name, (at, *words) in shown.items()},
     }
-    beside = teeth.beside(bins, settings.gears, settings.factors)
+    beside = teeth.beside(bins, settings.gears, settings.load_factors)
     if rate is not None:
         progress(part, "torque factors")
         damage, factors = _torque_factors(bins, rate, ratio)

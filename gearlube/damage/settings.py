@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated
@@ -46,7 +46,8 @@ class DamageSettings(Checked):
     blank
         Of the gears, for ISO 10300; None: no rating by the standard.
     factors
-        K factors of the standard; its loads are those of the bins, without dynamics.
+        K factors of the standard; its loads are those of the bins, without dynamics. None: K_H beta
+        of the solved contact for a pair, 1.65 for an axle, K_A 1.
     wear_coefficient
         k of Archard's law [1/Pa]; None: no wear.
     wear_of_all_load
@@ -91,7 +92,7 @@ class DamageSettings(Checked):
     pair: Teeth | None = None
     gears: Gears | None = None
     blank: HypoidBlank | None = None
-    factors: LoadFactors = field(default_factory=lambda: LoadFactors(face=1.65))
+    factors: LoadFactors | None = None
     wear_coefficient: Annotated[
         float | None, Number("1/Pa", 0.0, 1e-11, "Measured ones lie within 1e-19 to 1e-15.")
     ] = None
@@ -153,10 +154,15 @@ class DamageSettings(Checked):
             )
         return axle_teeth(self.car, self.blank)
 
+    @cached_property
+    def load_factors(self) -> LoadFactors:
+        """Those that are given, or of the teeth."""
+        return self.factors or LoadFactors(face=self.teeth.face(self.bins))
+
     @property
     def rate(self) -> Rate | None:
         """The standard's rating over torque [N.m], speed [rad/s], temperature [K]; None: none."""
-        return None if self.gears is None else self.teeth.rate(self.gears, self.factors)
+        return None if self.gears is None else self.teeth.rate(self.gears, self.load_factors)
 
 
 def rated_gears(

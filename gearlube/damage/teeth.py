@@ -32,6 +32,7 @@ _AXLE = (
 )
 
 
+BEVEL_FACE = 1.65  # of bevel gears, light check, one overhung
 Row = tuple[str, ...]  # of the summary
 
 
@@ -63,6 +64,7 @@ class Teeth(NamedTuple):
     limits: tuple[str, ...]  # what the solved numbers leave out
     # film ratio without micropitting, of torque and bulk temperature of the test gear
     permissible: Callable[[float, float], float]
+    face: Callable[[DutyBins], float]  # K_H beta where none is given
     withheld: str = ""  # why nothing is rated
     beside: Callable[[DutyBins, Gears | None, LoadFactors], Beside] = lambda *given: Beside(
         [], (), ()
@@ -133,4 +135,5 @@ def axle_teeth(car: CarAxle, blank: HypoidBlank | None) -> Teeth:
         drawn_size=axle.mesh.tooth_size or (1.0, 1.0),
         limits=_AXLE,
         permissible=partial(permissible_ratio, axle),
+        face=lambda bins: BEVEL_FACE,
     )

@@ -3,6 +3,7 @@
 import json
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import xarray as xr
 
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.damage.flank import flank_damage
-from gearlube.damage.pair import helical_teeth, is_pair, pair_settings
+from gearlube.damage.pair import helical_teeth, is_pair, pair_settings, solved_face
 from gearlube.damage.permissible_film import permissible_line_ratio
 from gearlube.damage.report import damage_report, findings
 from gearlube.damage.run import run_damage
@@ -310,3 +311,21 @@ def test_the_test_gear_has_the_film_of_lines_as_the_pair_has_it(film):
     rows = json.loads(run_damage(damage_of(teeth=teeth, test_torque=265.1)).attrs["summary"])
     row = next(one for one in rows if one[0] == "micropitting: least film ratio")
     assert row[6].startswith(f"our own film on both ({film})")
+
+
+def test_without_a_face_factor_the_standard_takes_that_of_the_solved_contact():
+    """Lines that grow from 0.8 to 1.2 along the face; of even lines the factor is 1."""
+    even = teeth_of()[1]
+
+    def tilted(*at):
+        states = even.states(*at)
+        tilt = 0.8 + 0.4 * states.place[:, 0] / PAIR.face_width
+        return states._replace(load=states.load * tilt)
+
+    for states, face in ((even.states, 1.0), (tilted, 1.198)):
+        teeth = even._replace(face=partial(solved_face, PAIR, states))
+        found = DamageSettings(pair=teeth, bins=BINS, gears=GEARS)
+        assert found.load_factors.face == pytest.approx(face, rel=0.03)
+        # the stress goes with the root of the factor, K_H alpha and K_v with the line load
+        rated = found.rate(300.0, 262.0, 363.0)
+        assert rated.number("K_Hb") == found.load_factors.face
