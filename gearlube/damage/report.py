@@ -174,8 +174,8 @@ def _worn(dataset: xr.Dataset) -> list[Finding]:
     depth = rate[-2] * float(np.diff(dataset["worn_life"])[-1])  # of the last step
     falls = 100.0 * (1.0 - rate[-1] / rate[-2]) / depth if depth > 0.0 else 0.0
     left = ""
-    if life < 1.0:
-        left = f" A whole life takes about {steps / max(life, 1e-3):.0f} steps: give --wear-steps."
+    if 0.0 < life < 1.0:
+        left = f" A whole life takes about {steps / life:.0f} steps: give --wear-steps."
     return [
         Finding(
             NOTE if life >= 1.0 else WARNING,

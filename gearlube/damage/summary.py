@@ -73,6 +73,9 @@ def summary_rows(
         depth = float(dataset["wear_map"].values[:, j].max())
         verdict = thin if depth <= _WEAR_LIMIT else TOO_DEEP
         by = f"Archard, k = {settings.wear_coefficient:g} 1/Pa, {whose}, the new flank's rate"
+        if verdict == TOO_DEEP:
+            verdict = "see the steps" if "worn_life" in dataset else TOO_DEEP
+            by = f"{by}; --wear-steps solves the contact again"
         limit = f"{_WEAR_LIMIT:g} µm"
         rows.append((f"wear, {role}", f"{number_text(depth)} µm", limit, "", "", verdict, by))
     for j, role in enumerate(("pinion", "gear") if "worn_life" in dataset else ()):

@@ -204,6 +204,7 @@ def test_run_with_steps_has_rows_words_figure_and_worn_gears(car, gears, rigid, 
     life = float(found["worn_life"][-1])
     assert 0.0 < life < 1.0
     rows = {row[0]: row for row in json.loads(found.attrs["summary"])}
+    assert rows["wear, pinion"][5] == "see the steps"
     assert rows["wear after 2 steps, gear"][5] == f"{100.0 * life:.0f} % of the life"
     report = damage_report(found, tmp_path / "figures")
     assert "wear_steps" in [one.name for one in report.figures]
