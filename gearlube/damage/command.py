@@ -87,7 +87,7 @@ def damage(
         int,
         typer.Option(
             help="Most steps of wear of 1 µm, after each of which the contact is solved again "
-            "(about half a minute). 0: the rate of the new flank alone.",
+            "(about a minute). 0: the rate of the new flank alone.",
             min=0,
         ),
     ] = 0,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
+import pickle
 import tomllib
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -173,6 +175,7 @@ def helical_teeth(
         limits=_LIMITS,
         permissible=partial(permissible_line_ratio, film),
         face=partial(solved_face, pair, states),
+        key=hashlib.sha256(pickle.dumps((settings, edition, mesh))).hexdigest(),
         withheld="" if rated else why,
     )
     return teeth._replace(beside=partial(_beside, pair, teeth, load_stage, test_torque))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,7 @@ from gearlube_core.rating.bearing_life import bearing_life
 from gearlube_core.rating.life import miner_sum, torque_factor
 from gearlube_core.rating.spectrum import DutyBins, Rate, SpectrumDamage, spectrum_damage
 from gearlube_core.storage.atomic_file import write_dataset, write_text
+from gearlube_core.storage.resumable import ARRAYS, ResultStore
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 
@@ -68,7 +70,8 @@ def run_damage(
     settings
         Axle or pair, bins, materials, bearings.
     folder
-        For damage.nc, damage.csv, summary.csv and figures; None: nothing is written.
+        For damage.nc, damage.csv, summary.csv and figures; None: nothing is written. Finished bins
+        are kept in its folder `bins` until all are, so that the same call goes on after a stop.
     progress
         Called with the share that is done and a sentence.
 
@@ -101,10 +104,16 @@ def run_damage(
     ratio = teeth.ratio
     count, part = bins.torque.size, 0.1 if settings.wear_steps else 0.9
     cycles = np.stack([bins.revolutions, bins.revolutions / ratio], axis=1)
-    solved = []
+    solved, store = [], ResultStore(folder and folder / "bins", ARRAYS)
     for i in range(count):
         progress(part * i / count, f"bin {i + 1} of {count}")
-        solved.append(_solved(settings, teeth, rate, i, cycles[i]))
+        key = settings.bin_key(i)
+        found = store.read(key)
+        if found is None:
+            new = _solved(settings, teeth, rate, i, cycles[i])
+            found = {name: np.asarray(value) for name, value in new.items()}
+            store.keep(key, found)
+        solved.append(found)
     values = {name: np.array([one[name] for one in solved]) for name in solved[0]}
     shown = {name: words for name, words in _OF_BINS.items() if name in values}
     if settings.wear_coefficient is None:
@@ -195,6 +204,7 @@ def run_damage(
     dataset.attrs["summary"] = json.dumps(summary_rows(dataset, settings, beside.rows))
     if folder is not None:
         _write(dataset, folder)
+        shutil.rmtree(folder / "bins")
     progress(1.0, "damage")
     return dataset
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import pickle
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated
@@ -12,6 +14,7 @@ import numpy as np
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
 from gearlube.damage.teeth import Teeth, axle_teeth
+from gearlube_core import __version__
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import check_within
@@ -26,6 +29,7 @@ from gearlube_core.rating.spectrum import DutyBins, Rate
 from gearlube_core.rating.subsurface import CaseHardening, hardness_profile
 
 _MOST_BINS = 1000
+_NOT_OF_A_BIN = "bins", "pair", "factors", "duty", "wear_steps", "wear_step", "gear_file"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,6 +162,14 @@ class DamageSettings(Checked):
     def load_factors(self) -> LoadFactors:
         """Those that are given, or of the teeth."""
         return self.factors or LoadFactors(face=self.teeth.face(self.bins))
+
+    def bin_key(self, place: int) -> str:
+        """Return a hash of a bin and of all that decides what is found there."""
+        given = [getattr(self, one.name) for one in fields(self) if one.name not in _NOT_OF_A_BIN]
+        teeth = self.pair and self.pair.key
+        at = [float(one[place]) for one in self.bins]
+        whole = __version__, given, self.load_factors, teeth, at
+        return hashlib.sha256(pickle.dumps(whole)).hexdigest()[:20]
 
     @property
     def rate(self) -> Rate | None:

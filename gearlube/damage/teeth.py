@@ -66,6 +66,7 @@ class Teeth(NamedTuple):
     permissible: Callable[[float, float], float]
     face: Callable[[DutyBins], float]  # K_H beta where none is given
     withheld: str = ""  # why nothing is rated
+    key: str = ""  # a hash of what decides the states, of a pair
     beside: Callable[[DutyBins, Gears | None, LoadFactors], Beside] = lambda *given: Beside(
         [], (), ()
     )

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.damage.bins import is_bins, joined, read_bins
@@ -199,3 +200,22 @@ def test_bad_settings_are_refused(car):
         rated_pair("mohammadpour_2015", "", "case_hardened", 1500.0, None)
     with pytest.raises(ParameterError, match="C and C_0"):
         rated_bearing(TaperedRollerBearing.mohammadpour_2015(), [1.0, 2.0, 3.0])
+
+
+def test_a_run_that_was_stopped_goes_on_with_the_bins_that_it_lacks(car, tmp_path, monkeypatch):
+    settings = DamageSettings(car=car, bins=HARD)
+    asked, states = [], settings.teeth.states
+
+    def stopped(*at):
+        asked.append(at)
+        if len(asked) == 2:
+            raise KeyboardInterrupt
+        return states(*at)
+
+    monkeypatch.setitem(vars(settings), "teeth", settings.teeth._replace(states=stopped))
+    with pytest.raises(KeyboardInterrupt):
+        run_damage(settings, folder=tmp_path)
+    found = run_damage(settings, folder=tmp_path)
+    assert [at[0] for at in asked] == [550.0, 450.0, 450.0]
+    xr.testing.assert_identical(found, run_damage(DamageSettings(car=car, bins=HARD)))
+    assert not (tmp_path / "bins").exists()
