@@ -54,8 +54,11 @@ def test_forces_balance_and_complement_gaps(seed: int, coupling: float, torque: 
     separation = problem.gap + displacement - problem.arm * solution.rotation
     closed = solution.touching
     scale = float(forces @ displacement) / float(forces.sum())
-    assert float(forces[closed] @ np.abs(separation[closed])) <= 1.1e-8 * scale * forces.sum()
-    assert separation[~closed].min(initial=0.0) >= -1.1e-8 * scale
+    # forces that are off by 1e-8 of their mean leave the softest mode of the cells open by this
+    error = 1e-8 * float(forces.sum()) / np.sqrt(problem.usable.sum())
+    softest = np.linalg.eigvalsh(dense[np.ix_(closed, closed)])[-1]
+    assert np.linalg.norm(separation[closed]) <= softest * error
+    assert separation[~closed].min(initial=0.0) >= -softest * error
     np.testing.assert_allclose(solution.displacement, displacement, atol=1e-9 * scale, rtol=1e-9)
 
 
