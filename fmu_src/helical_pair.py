@@ -11,7 +11,7 @@ from typing import Any
 from fmu_src.definition import Definition, Value
 from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR, LINE_MESH
 from fmu_src.slave_base import CoSimulationSlave
-from fmu_src.variable import Variable, with_own_oil
+from fmu_src.variable import Variable, started, taken_holder, with_own_oil
 from gearlube_core.checks import read_content
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
@@ -130,23 +130,16 @@ def start_pair(
     Parameters
     ----------
     arguments : mapping
-        `pinion_speed`, and those of `pair_parameters`.
+        `pinion_speed`, those of `SpeedHolder`, and those of `pair_parameters`.
     inputs : sequence of float
-        pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
+        See `started`.
     embedded : EmbeddedPair, optional
         What gear.name = custom stands for.
     """
     given = dict(arguments)
     speed = float(given.pop("pinion_speed"))
-    pair = HelicalPairModel(pair_parameters(given, embedded))
-    pinion_torque, wheel_torque, oil_temperature = inputs
-    pair.initialise(
-        pinion_speed=speed,
-        pinion_torque=pinion_torque,
-        wheel_torque=wheel_torque,
-        oil_temperature=oil_temperature,
-    )
-    return pair
+    holder = taken_holder(given)
+    return started(HelicalPairModel(pair_parameters(given, embedded), holder), speed, inputs)
 
 
 DEFINITION = Definition(
@@ -283,7 +276,8 @@ def _definition_with(
         torque = gear.operation.pinion_torque_n_m
         starts["pinion.torque"] = torque
         starts["wheel.torque"] = torque * pair.gear_teeth / pair.pinion_teeth
-        starts["pinion.speed_start"] = rpm_to_rads(gear.operation.pinion_speed_rpm)
+        speed = rpm_to_rads(gear.operation.pinion_speed_rpm)
+        starts |= {"pinion.speed_start": speed, "speed.reference": speed}
     if line_mesh:
         starts["mesh.stiffness_model"] = _number_of("mesh.stiffness_model", LINE_MESH)
     of_mesh = f", line mesh {line_mesh.name}" if line_mesh else ""

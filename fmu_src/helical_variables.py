@@ -29,6 +29,7 @@ from fmu_src.variable import (
     parameter,
     ranges,
     rates,
+    speed_hold,
     tilt_speeds,
     velocities,
 )
@@ -239,4 +240,5 @@ HELICAL_PAIR = _LISTED + in_order(
     _RELEASED,
     *declared_in(HelicalMarchParameters, {one.argument for one in _LISTED}),
     *declared_outputs(OWN_OUTPUTS),
+    *speed_hold(104.71975511965977),
 )

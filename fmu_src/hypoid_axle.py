@@ -18,7 +18,7 @@ from fmu_src.axle_arguments import (
 )
 from fmu_src.definition import Definition, Value
 from fmu_src.slave_base import CoSimulationSlave
-from fmu_src.variable import MEMBERS, Variable, declared, with_own_oil
+from fmu_src.variable import MEMBERS, Variable, declared, started, taken_holder, with_own_oil
 from fmu_src.variables import FRICTION_VARIANTS, HYPOID_AXLE, SHARED_PRELOAD
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
 from gearlube_core.checks import read_content
@@ -58,9 +58,9 @@ def start_axle(
     Parameters
     ----------
     arguments : mapping
-        `pinion_speed`, and those of `axle_parameters`.
+        `pinion_speed`, those of `SpeedHolder`, and those of `axle_parameters`.
     inputs : sequence of float
-        pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K].
+        See `started`.
     base : HypoidAxleParameters, optional
         What the arguments change; by default the paper's axle. The sensitivities of its losses
         stay, whatever the arguments.
@@ -68,15 +68,10 @@ def start_axle(
     given = dict(arguments)
     speed = float(given.pop("pinion_speed"))
     band = loss_sensitivities(base or hypoid_axle.mohammadpour_2015_axle())
-    axle = hypoid_axle.HypoidAxle(axle_parameters(given, base), band)
-    pinion_torque, wheel_torque, oil_temperature = inputs
-    axle.initialise(
-        pinion_speed=speed,
-        pinion_torque=pinion_torque,
-        wheel_torque=wheel_torque,
-        oil_temperature=oil_temperature,
+    holder = taken_holder(given)
+    return started(
+        hypoid_axle.HypoidAxle(axle_parameters(given, base), band, holder), speed, inputs
     )
-    return axle
 
 
 DEFINITION = Definition(

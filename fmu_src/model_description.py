@@ -77,6 +77,7 @@ _ALL = (
     Unit("Pa", (DisplayUnit("GPa", 1e-9),)),
     Unit("N.m"),
     Unit("N.m/s"),
+    Unit("N.m.s/rad"),
     Unit("J"),
     Unit("W"),
     Unit("K", (DisplayUnit("degC", 1.0, -ZERO_CELSIUS),)),

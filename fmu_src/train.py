@@ -116,6 +116,12 @@ def variables(case: TrainCase) -> tuple[Variable, ...]:
                    minimum=-MOST_TORQUE, maximum=MOST_TORQUE)
             for name, torque in case.torques.items()
         ),
+        *(
+            input_(name, "rad/s", f"Speed at which a holder keeps the body of the port "
+                   f"{name.partition('.')[0]}, in the sense of its torque", start=speed,
+                   minimum=-MAX_SPEED, maximum=MAX_SPEED, display_unit="rpm")
+            for name, speed in case.train.references.items()
+        ),
         input_("oil.temperature", "K", "Temperature of the oil", start=case.oil_temperature,
                minimum=oil.temperature_low, maximum=oil.temperature_high, display_unit="degC"),
         *(
@@ -136,7 +142,8 @@ def variables(case: TrainCase) -> tuple[Variable, ...]:
 
 def _start(case: TrainCase, speeds: Mapping[str, Value], inputs: Sequence[float]) -> TrainModel:
     *torques, temperature = inputs
-    given, of = dict(zip(case.torques, torques, strict=True)), case.train
+    names, of = (*case.torques, *case.train.references), case.train
+    given = dict(zip(names, torques, strict=True))
     train = Train(  # one of its own, as several models may run side by side
         of.bodies,
         of.elements,
@@ -145,7 +152,7 @@ def _start(case: TrainCase, speeds: Mapping[str, Value], inputs: Sequence[float]
         driver=of.driver,
     )
     train.initialise({n: float(v) for n, v in speeds.items()}, given, temperature)
-    return TrainModel(train, tuple(case.torques))
+    return TrainModel(train, names)
 
 
 def definition_with_train(path: str | Path) -> tuple[Definition, TrainCase]:

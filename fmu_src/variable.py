@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any, Literal, get_args, get_type_hints
+from typing import Any, Literal, TypeVar, get_args, get_type_hints
 
 from gearlube_core.checks import check_option
+from gearlube_core.dynamics.ranges import MAX_SPEED
+from gearlube_core.dynamics.train.elements.held_port import Hold, SpeedHolder
+from gearlube_core.dynamics.train.stepped_model import SteppedModel
 from gearlube_core.errors import ParameterError
 from gearlube_core.number import Output, numbers_of
 from gearlube_core.oil.lubricant import Lubricant
@@ -22,6 +25,7 @@ _RATES = {
     "J": ("W", 1e3),
     "N.m": ("N.m/s", 1e3),
 }
+_Started = TypeVar("_Started", bound=SteppedModel[Any])
 MEMBERS = (("pinion", "pinion"), ("wheel", "gear"))  # in names, in words
 
 
@@ -293,6 +297,43 @@ def tilt_speeds(member: str, word: str) -> tuple[Variable, ...]:
               0.1)
         for axis in "xy"
     )  # fmt: skip
+
+
+def speed_hold(start: float) -> tuple[Variable, ...]:
+    """Return what holds the speed of the pinion; `start` is the reference at the start [rad/s]."""
+    hold = option("speed.hold", "What holds the speed of the pinion: nothing, a governor, whose "
+                  "torque is its gain times the error of the speed, or an imposed motion",
+                  *get_args(Hold), start="none", argument="mode")  # fmt: skip
+    return (
+        input_("speed.reference", "rad/s", "Speed at which the pinion is held, see speed.hold",
+               display_unit="rpm", start=start, minimum=-MAX_SPEED, maximum=MAX_SPEED,
+               nominal=100.0),
+        hold,
+        *options_by_number((hold,)),
+        declared(SpeedHolder, "governor_gain", "speed.governor_gain", nominal=10.0),
+        declared(SpeedHolder, "time_constant", "speed.time_constant", nominal=1e-3),
+    )  # fmt: skip
+
+
+# arguments of a run, no properties of the gears: the start speed, and those of `speed_hold`
+OF_HOLDER = ("mode", *numbers_of(SpeedHolder))  # in the order of `SpeedHolder.numbers`
+OF_RUN = ("pinion_speed", *OF_HOLDER)
+
+
+def taken_holder(arguments: dict[str, Any]) -> SpeedHolder:
+    """Return the holder of a speed, whose arguments are taken out of a mapping."""
+    return SpeedHolder(**{one: arguments.pop(one) for one in OF_HOLDER if one in arguments})
+
+
+def started(model: _Started, speed: float, inputs: Sequence[float]) -> _Started:
+    """Return a model that is initialised at a speed of the pinion under inputs in their order.
+
+    They are pinion.torque [N.m], wheel.torque [N.m], oil.temperature [K], speed.reference [rad/s];
+    without the last, the start speed.
+    """
+    names = "pinion_torque", "wheel_torque", "oil_temperature", "speed_reference"
+    model.initialise(pinion_speed=speed, **dict(zip(names, inputs, strict=False)))
+    return model
 
 
 def load_level() -> Variable:

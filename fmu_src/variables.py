@@ -32,6 +32,7 @@ from fmu_src.variable import (
     parameter,
     ranges,
     rates,
+    speed_hold,
     velocities,
 )
 from gearlube_core.bearings.followed_shaft import TORQUE_LOSSES
@@ -341,4 +342,5 @@ HYPOID_AXLE = _LISTED + in_order(
     _RELEASED,
     *declared_in(HypoidAxleParameters, {one.argument for one in _LISTED}),
     *declared_outputs(OWN_OUTPUTS),
+    *speed_hold(200.0),
 )

@@ -48,6 +48,8 @@ from gearlube_core.housings.reduced_model import InterfaceNode as InterfaceNode
 from gearlube_core.housings.reduced_model import ReducedModel as ReducedModel
 from gearlube_core.dynamics.train.part import Element as TrainElement
 from gearlube_core.dynamics.train.elements.port import Port as Port
+from gearlube_core.dynamics.train.elements.held_port import HeldPort as HeldPort
+from gearlube_core.dynamics.train.elements.held_port import SpeedHolder as SpeedHolder
 from gearlube_core.dynamics.train.elements.motor import Motor as Motor
 from gearlube_core.dynamics.train.ripple_table import RippleTable as RippleTable
 from gearlube_core.dynamics.train.ripple_table import skew_factor as skew_factor

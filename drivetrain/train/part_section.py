@@ -61,6 +61,9 @@ _WORDS = {
     "case": "Body of the case",
     "left": "Body of one side: a side gear, or a wheel",
     "right": "Body of the other side",
+    "holder": "What holds the speed of the body",
+    "mode": "none; governor: a torque over the error of the speed; imposed: the body follows the "
+    "reference whatever the other torques",
     "held": "Coordinates that do not move, among x, y, z, rx, ry, rz",
     "torque_of": "Port whose torque chooses the level of the mesh's table; left out: the torque "
     "of the mesh itself",

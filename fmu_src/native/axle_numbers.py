@@ -28,6 +28,7 @@ from gearlube_core.dynamics.train.assemble import Assembly, assemble
 from gearlube_core.dynamics.train.choice import generated_kernel
 from gearlube_core.dynamics.train.element import N_COORDINATES
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
+from gearlube_core.dynamics.train.elements.held_port import HeldPort
 from gearlube_core.dynamics.train.elements.hypoid_mesh import HypoidMesh
 from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
 from gearlube_core.dynamics.train.march import work_size
@@ -63,6 +64,7 @@ class NumberMap(NamedTuple):
     steps_per_period: int  # likewise
     reaches: tuple[int, int]  # of the bearings
     mobilities: tuple[int, int]  # first of pinion and of gear
+    holder: int  # first of those of the holder of the speed
 
 
 class AxleTrain(NamedTuple):
@@ -220,7 +222,7 @@ def _number_map(
     made: Assembly, elements: list[Element], rows: Mapping[str, int], place: Any
 ) -> NumberMap:
     copied, dragging, reaches = [*enumerate(flatten(place.oil).tolist())], [], []
-    compliance = steps = 0
+    compliance = steps = holder = 0
     nan = math.nan
     for one, listed in zip(elements, made.listed, strict=True):
         first = int(made.plan[rows[one.name] + NUMBER])
@@ -249,6 +251,11 @@ def _number_map(
                 reach=nan,
                 on_cage=place.mesh.consistent,
             )
+        elif isinstance(one, HeldPort):
+            holder = int(own.mode)
+            found = own._replace(
+                inertia=place.I_p, **dict.fromkeys(("sign", *own._fields[2:]), nan)
+            )
         elif isinstance(one, Seal):
             dragging.append(int(own.torque))
             found = own._replace(torque=getattr(place, _TORQUES[one.name]))
@@ -267,4 +274,5 @@ def _number_map(
         steps,
         (reaches[0], reaches[1]),
         (pinion, pinion + N_COORDINATES),
+        holder,
     )

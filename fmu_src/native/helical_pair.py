@@ -33,9 +33,11 @@ from gearlube_core.dynamics.helical_model.outputs import (
     OUTPUT_NAMES,
     POWERS,
     SENSES,
+    SPEED_REFERENCE,
     STATE_NAMES,
     STATE_PLACES,
     TORQUES,
+    WHEEL_TORQUE,
     write_derivatives,
     write_motion,
     write_pair,
@@ -49,7 +51,7 @@ from gearlube_core.dynamics.train.choice import generated_kernel
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
 from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, START, WRITE
 from gearlube_core.dynamics.train.rest_search import NO_REST
-from gearlube_core.dynamics.train.stepped_model import put_speed
+from gearlube_core.dynamics.train.stepped_model import REVERSED, REVERSED_WORDS, put_speed
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.flat_tuples import tuple_from_array
@@ -130,7 +132,8 @@ def _entry(made: Assembly) -> Callable[..., int]:
             return OK
         for i in range(N_STATE):
             trial[i] = 0.0 if operation == _START else own[i]
-        trial[TORQUES], trial[TORQUES + 1] = wanted[0], wanted[1]
+        trial[TORQUES], trial[WHEEL_TORQUE] = wanted[0], wanted[1]
+        trial[SPEED_REFERENCE] = wanted[3]
         temperature = wanted[2]
         if operation == _DERIVATIVES:
             status = int(
@@ -150,6 +153,8 @@ def _entry(made: Assembly) -> Callable[..., int]:
             )
             status = state_status(trial) if status == OK else status
         elif operation == _START:
+            if given[layout.HOLD] > 1.0 and wanted[3] * given[layout.SPEED] < 0.0:
+                return REVERSED
             put_speed(-given[layout.SPEED], scratch)
             per_period = given[layout.PER_HIGHEST_PERIOD]
             status = int(
@@ -157,6 +162,7 @@ def _entry(made: Assembly) -> Callable[..., int]:
             )
             if status != OK:
                 return layout.NO_EQUILIBRIUM if status == NO_REST else layout.NO_FREQUENCIES
+            trial[SPEED_REFERENCE] = wanted[3]  # which a start leaves out
             own[layout.CONTROL_AT] = given[layout.PER_MESH_PERIOD]
             own[layout.CONTROL_AT + 1] = per_period
             own[layout.CONTROL_AT + 2] = scratch[0] / per_period
@@ -198,6 +204,7 @@ def native_model(definition: Definition) -> NativeModel:
         **WORDS.refusals,
         layout.NO_EQUILIBRIUM: f"no static equilibrium at the pinion torque. {NO_EQUILIBRIUM_CURE}",
         layout.NO_FREQUENCIES: NO_FREQUENCIES_WORDS,
+        REVERSED: REVERSED_WORDS,
         layout.INPUT_OUT_OF_RANGE: "an input is outside its limits",
         layout.DENSITY_WITH_LINE_MESH: DENSITY_WITH_MESH_WORDS,
         layout.COUPLING_TOO_LARGE: "a bearing of the gear file couples more than the given "

@@ -14,6 +14,7 @@ from fmu_src.native.helical_cases import (
     CasePlaces,
 )
 from fmu_src.native.model import OK
+from fmu_src.variable import OF_HOLDER
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.dynamics.helical_model.model import FREE, StepControl
 from gearlube_core.dynamics.helical_model.outputs import N_STATE
@@ -36,7 +37,7 @@ from gearlube_core.dynamics.helical_pair.march.given_pair import (
 from gearlube_core.dynamics.helical_pair.march.kept_films import forget
 from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT, KEPT_AT, place_mesh
 from gearlube_core.dynamics.helical_pair.march.parameters import FRICTION_FORMS, HELD, LINE_WORK
-from gearlube_core.dynamics.ranges import RangeLimits
+from gearlube_core.dynamics.ranges import MAX_SPEED, RangeLimits
 from gearlube_core.dynamics.train.assemble import Assembly, assemble
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import (
     TABLE,
@@ -87,6 +88,7 @@ EQUATIONS = _PLACE["equations"]
 PER_MESH_PERIOD = _PLACE["steps_per_mesh_period"]
 PER_HIGHEST_PERIOD = _PLACE["steps_per_highest_period"]
 FILM = _PLACE["film"]
+HOLD = _PLACE["mode"]  # with the others of OF_HOLDER behind
 
 # places of the choices, of those that are parameters as they stand, and of these
 _FORM_AT, _HELD_AT, _WORK_AT, _FILM_CHOICE = (
@@ -187,7 +189,8 @@ def take_parameters(
     forget(data[KEPT_AT:])
     of_oil: GivenOil = tuple_from_array(oil, GivenOil)
     numbers = part(work, NUMBERS_AT, N_NUMBERS)
-    write_numbers(given, of_oil.parameters, choices, parameters[PER_MESH_PERIOD], numbers)
+    holder = part(parameters, HOLD, len(OF_HOLDER))
+    write_numbers(given, of_oil.parameters, choices, parameters[PER_MESH_PERIOD], holder, numbers)
     shares = part(work, BEARINGS_AT, GIVEN_AT - BEARINGS_AT)
     write_bearing_shares(given, parameters[SUPPORT_DAMPING], shares)
     for i in range(BEARINGS_AT - RANGES_AT):
@@ -200,6 +203,7 @@ def take_parameters(
     limits[3] = head.wheel
     limits[4] = of_oil.ranges.temperature_low
     limits[5] = of_oil.ranges.temperature_high
+    limits[6], limits[7] = -MAX_SPEED, MAX_SPEED
     return OK
 
 

@@ -43,6 +43,7 @@ from fmu_src.native.parameter_map import (
     place_of_each,
 )
 from fmu_src.object_code import array_at, pointer_at, whole_at
+from fmu_src.variable import OF_HOLDER, OF_RUN
 from gearlube_core.arrays import Array, Offsets
 from gearlube_core.bearings.followed_shaft import SOLVED_FILMS
 from gearlube_core.bearings.losses.race_rolling import roller_film_model
@@ -56,7 +57,7 @@ from gearlube_core.dynamics.hypoid_axle.model import (
     take_speeds,
 )
 from gearlube_core.dynamics.hypoid_axle.output_names import N_OUTPUTS
-from gearlube_core.dynamics.hypoid_axle.state import PINION_TORQUE, WHEEL_TORQUE
+from gearlube_core.dynamics.hypoid_axle.state import PINION_TORQUE, SPEED_REFERENCE, WHEEL_TORQUE
 from gearlube_core.dynamics.hypoid_axle.train_outputs import (
     N_BAND,
     gather_group,
@@ -69,7 +70,7 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import NO_MODAL_LOSS, PRINTED
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import AT_MEANS
 from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, SHOW, START, WRITE
 from gearlube_core.dynamics.train.rest_search import APART, LOOSE, NO_MODES, NO_REST, OK
-from gearlube_core.dynamics.train.stepped_model import put_speed
+from gearlube_core.dynamics.train.stepped_model import REVERSED, REVERSED_WORDS, put_speed
 from gearlube_core.film_model.model import FLANK, shipped_model
 from gearlube_core.film_model.net import N_ARRAY
 from gearlube_core.friction.flank_film import N_FLANK_MODEL, flank_film_model
@@ -83,11 +84,12 @@ REFUSALS: Mapping[int, str] = {
     NO_MODES: NO_MODES_WORDS,
     MODAL_WITHOUT_LOSS: NO_MODAL_LOSS,
     PRINTED_FILM: PRINTED_WITH_SOLVED_FILM,
+    REVERSED: REVERSED_WORDS,
 }
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
 _SHOW, _CHECK = map(int, tuple(Operation)[7:])
 _RATES, _FLANKS, _BEARINGS = map(int, Group)
-_N_INPUTS = 3
+_N_INPUTS = 4
 
 
 def _entry(
@@ -95,13 +97,14 @@ def _entry(
     axle: AxleTrain,
     at: AxlePlaces,
     n_parameters: int,
-    at_speed: int,
+    of_run: tuple[int, int, int],
     structure: AxleStructure,
     counting: Array,
 ) -> Callable[..., int]:
     """Return the entry of a model with these bearings and flanks.
 
-    `at` says how its data and work lie; the last two, what the data must be like.
+    `at` says how its data and work lie, `of_run` where among the parameters the start speed
+    and the holder stand, and how many the latter has; the last two, what the data must be like.
     """
     bearing, law = kinds
     operate, numbers_of, base_plan = axle.operate, axle.numbers, axle.plan
@@ -112,6 +115,7 @@ def _entry(
     bits = axle.bits
     at_control, state_size = at.states + _N_INPUTS, at.states + _N_INPUTS + 1
     sizes = axle.sizes
+    at_speed, at_holder, n_holder = of_run
 
     @kernel
     def write_plan(
@@ -171,6 +175,8 @@ def _entry(
             for i in range(at.n_numbers):
                 numbers[i] = at_rest[i] = constants[at.numbers + i]
             write_numbers(values, p, settings, numbers_of, 1.0, numbers)
+            for i in range(n_holder):
+                numbers[numbers_of.holder + i] = given_parameters[at_holder + i]
             write_numbers(without, p, settings, numbers_of, 0.0, at_rest)
             write_memory(settings, constants, head, ends, at, films, memory)
             write_plan(head, settings, p.drag, plan)
@@ -180,6 +186,8 @@ def _entry(
             for i in range(at.states):
                 trial[i] = 0.0
             speed = given_parameters[at_speed]
+            if given_parameters[at_holder] > 1.0 and given[3] * speed < 0.0:
+                return REVERSED
             trial[PINION_TORQUE], trial[WHEEL_TORQUE] = given[0], given[1]
             put_speed(0.0, scratch)  # shafts do not turn yet
             memory[AT_MEANS] = 1.0
@@ -191,6 +199,7 @@ def _entry(
             if status != OK:
                 return status
             take_speeds(trial, speed, p.ratio, given[0])
+            trial[SPEED_REFERENCE] = given[3]
             for i in range(at.states):
                 s[i] = trial[i]
             for i in range(_N_INPUTS):
@@ -221,16 +230,18 @@ def _entry(
             return OK
         # one call of the train for all: the compiler would copy its code for each
         own, todo, size, rate, groups = s, WRITE, 0.0, 0.0, 0
-        torque_p, torque_g = s[PINION_TORQUE], s[WHEEL_TORQUE]
+        torque_p, torque_g, reference = s[PINION_TORQUE], s[WHEEL_TORQUE], s[SPEED_REFERENCE]
         temperature = kept[at.states + 2]
         if operation == _STEP:
             own = array_at(pointer_at(work, at.trial), at.states)
             for i in range(at.states):
                 own[i] = s[i]
             own[PINION_TORQUE], own[WHEEL_TORQUE], temperature = given[0], given[1], given[2]
+            own[SPEED_REFERENCE] = given[3]
             todo, size, rate = ADVANCE, step, kept[at_control]
         else:  # a host may have set the inputs that stand behind the state
             s[PINION_TORQUE], s[WHEEL_TORQUE] = kept[at.states], kept[at.states + 1]
+            s[SPEED_REFERENCE] = kept[at.states + 3]
         if operation == _EVENT:
             todo = EVENT
         elif operation in (_DERIVATIVES, _SHOW):
@@ -252,7 +263,7 @@ def _entry(
         if status == OK and groups & _BEARINGS:
             gather_group(s, scratch, outputs_of, of_bearings, out)
         if status != OK:  # what is refused changes nothing
-            s[PINION_TORQUE], s[WHEEL_TORQUE] = torque_p, torque_g
+            s[PINION_TORQUE], s[WHEEL_TORQUE], s[SPEED_REFERENCE] = torque_p, torque_g, reference
         if status == OK and operation == _STEP:
             for i in range(at.states):
                 s[i] = own[i]
@@ -274,7 +285,7 @@ def native_model(definition: Definition) -> NativeModel:
     by_default = car_axle_in(definition.resources).axle
 
     def pack(arguments: Mapping[str, Value]) -> Array:
-        given = {name: value for name, value in arguments.items() if name != "pinion_speed"}
+        given = {name: value for name, value in arguments.items() if name not in OF_RUN}
         one = axle_parameters(given, by_default)
         return np.concatenate([flatten(one.kernel_parameters()), flatten(axle_settings(one))])
 
@@ -304,14 +315,14 @@ def native_model(definition: Definition) -> NativeModel:
     )
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))
     parameters = [v.argument for v in definition.variables if v.is_model_parameter]
-    at_speed = parameters.index("pinion_speed")
+    of_run = parameters.index("pinion_speed"), parameters.index(OF_HOLDER[0]), len(OF_HOLDER)
     laws = by_default.oil.own_laws()
     structure, counting = axle_structure(at, len(parameters)), counting_floats(place, at)
-    words = (len(parameters), at_speed, at, counting.tolist(), axle.words)
+    words = (len(parameters), of_run, at, counting.tolist(), axle.words)
     states = at.states
     return NativeModel(
         definition=definition,
-        entry=_entry(kinds, axle, at, len(parameters), at_speed, structure, counting),
+        entry=_entry(kinds, axle, at, len(parameters), of_run, structure, counting),
         kind="" if laws else kind_of_classes(kinds, words),
         data=data,
         state_size=states + _N_INPUTS + 1,

@@ -21,6 +21,7 @@ from gearlube_core.bearings.bearing_type import ShaftBearings, write_derived
 from gearlube_core.dynamics.hypoid_axle.model import torque_limits
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters, MeshStiffness, Radii
+from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_law import FlankLaw
 from gearlube_core.friction.thermal_eyring_data import PRESSURES
@@ -39,6 +40,8 @@ class AxleSettings(NamedTuple):
     wheel_high: float
     oil_low: float  # K
     oil_high: float
+    speed_low: float  # rad/s, of the reference
+    speed_high: float
     steps_per_mesh_period: float
     steps_per_highest_period: float
     radii: float  # place of the option in `Radii`
@@ -62,6 +65,8 @@ def axle_settings(axle: HypoidAxleParameters) -> AxleSettings:
         torques.wheel,
         axle.oil.temperature_low,
         axle.oil.temperature_high,
+        -MAX_SPEED,
+        MAX_SPEED,
         float(axle.steps_per_mesh_period),
         float(axle.steps_per_highest_period),
         float(get_args(Radii).index(axle.radii)),

@@ -18,6 +18,7 @@ from fmu_src.native.train_data import N_HEAD, N_LENGTHS, TrainPlaces, places_in,
 from fmu_src.object_code import array_at, pointer_at, whole_at
 from fmu_src.train import definition_with_train, train_ranges
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.choice import generated_kernel, interpreted_kernel, kernel_of
 from gearlube_core.dynamics.train.element import BODY_STATES, RZ, W
 from gearlube_core.dynamics.train.march import (
@@ -110,6 +111,8 @@ def _entry(operate: Callable[..., float], check: Callable[..., int]) -> Callable
                 )
             if status != OK:
                 return status
+            for i in range(at.n_ports):  # again: a start leaves out what holds speeds
+                trial[int(fixed[at.ports + i])] = given[i]
             for i in range(at.states):
                 kept[i] = trial[i]
             for i in range(at.n_ports + 1):
@@ -182,12 +185,14 @@ def train_model(path: str | Path) -> NativeModel:
     oil = train.oil
     ranges = train_ranges(train)
     of_ranges = [end for one in ranges for end in (one.low, one.high)]
+    ports = [*case.torques, *train.references]
     limits = [-MOST_TORQUE, MOST_TORQUE] * len(case.torques)
+    limits += [-MAX_SPEED, MAX_SPEED] * len(train.references)
     parts = [
         made.numbers,
         made.memory,
         made.plan.view(float),
-        np.array([made.kept[name] for name in case.torques], float),
+        np.array([train.place_of_input(name) for name in ports], float),
         np.array([names.index(name) for name in case.speeds], float),
         np.array(pairs, float).ravel(),
         np.array(exchanged, float).ravel(),
@@ -195,7 +200,7 @@ def train_model(path: str | Path) -> NativeModel:
         np.array([definition.output_names.index(one.output) for one in ranges], float),
     ]
     starts = np.cumsum([N_HEAD, *(part.size for part in parts)]).tolist()
-    n_inputs, states = len(case.torques) + 1, made.sizes.states
+    n_inputs, states = len(ports) + 1, made.sizes.states
     own_memory = 2 * (n_inputs + len(ranges))
     trial = own_memory + made.memory.size
     scratch = trial + states
@@ -203,7 +208,7 @@ def train_model(path: str | Path) -> NativeModel:
     at = TrainPlaces(
         **dict(zip(TrainPlaces._fields, starts, strict=False)),
         states=states,
-        n_ports=len(case.torques),
+        n_ports=len(ports),
         n_speeds=len(case.speeds),
         n_motion=len(pairs),
         n_exchanged=len(exchanged),

@@ -18,6 +18,7 @@ from gearlube_core.dynamics.helical_model.outputs import (
     STATE_NAMES,
     STATE_PLACES,
     TORQUES,
+    WHEEL_TORQUE,
 )
 from gearlube_core.dynamics.helical_model.pair import (
     BEARING_FIELDS,
@@ -78,7 +79,7 @@ def test_places_of_the_pair_are_those_of_its_list():
     made = assemble(*helical_pair(PAIR), PAIR.oil)
     assert made.sizes.states == N_STATE
     assert made.kept == {
-        "input": TORQUES, "output": TORQUES + 1, "mesh": LOAD_TORQUE, "pinion bearings": MARKS,
+        "input": TORQUES, "output": WHEEL_TORQUE, "mesh": LOAD_TORQUE, "pinion bearings": MARKS,
         "wheel bearings": MARKS,
     }  # fmt: skip
     assert made.sizes.kept == MARKS
@@ -105,6 +106,7 @@ def alone_from(train: Train, pair: HelicalMarchParameters) -> dict[str, float]:
         of, sign = named.get(name, name), -1.0 if name in turned else 1.0
         given |= {name: sign * states[of], f"der({name})": sign * rates[of]}
     given |= dict(zip(EVENT_INDICATORS, train.indicators(x), strict=True))
+    given["speed.hold_torque"] = found["input.hold_torque"]
     losses = {"damping": "mesh_damping", "bearing": "bearing_damping"}
     given |= {f"{one}.power_loss": found[f"{other}.power_loss"] for one, other in losses.items()}
     pinion, wheel = found["input.power"], -found["output.power"]

@@ -27,7 +27,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
 )
 from gearlube_core.dynamics.hypoid_axle.train_outputs import N_BAND
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
-from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
+from gearlube_core.dynamics.ranges import MAX_SPEED, RANGE_OUTPUTS
 from gearlube_core.dynamics.train.march import MAX_STEPS, TOO_MANY_STEPS
 from gearlube_core.dynamics.train.rest_search import NO_REST
 from gearlube_core.errors import ParameterError
@@ -44,7 +44,7 @@ from tests.helpers.own_film_models import altered
 
 KINDS = (TaperedRollerParameters, MixedFlankFriction)
 N = count_floats(AxleParameters, *KINDS)
-CURRENT = [60.0, 150.0, 333.15]  # N.m, N.m, K
+CURRENT = [60.0, 150.0, 333.15, 150.0]  # N.m, N.m, K, rad/s
 
 
 @pytest.fixture(scope="module")
@@ -86,13 +86,15 @@ def test_parameters_are_packed_bit_for_bit_as_in_python(native, count):
         assert run.work[at_ranges : at_ranges + len(limits)].tolist() == limits
         torques = torque_limits(axle)
         at_limits = native.model.limits_at
-        assert run.work[at_limits : at_limits + 6].tolist() == [
+        assert run.work[at_limits : at_limits + 8].tolist() == [
             torques.pinion_low,
             torques.pinion_high,
             -torques.wheel,
             torques.wheel,
             axle.oil.temperature_low,
             axle.oil.temperature_high,
+            -MAX_SPEED,
+            MAX_SPEED,
         ]
 
 
@@ -105,7 +107,7 @@ def assert_start_agrees(run, axle):
     expected = [axle.output(name) for name in STATE_NAMES]
     # displacements of micrometres, as of outputs
     assert states == pytest.approx(expected, rel=1e-11, abs=1e-15)
-    assert run.state[control - 3 : control].tolist() == run.inputs.tolist()
+    assert run.state[control - 4 : control].tolist() == run.inputs.tolist()
     assert run.state[control:] == pytest.approx(list(axle.step_control), rel=1e-10)
     assert_outputs_agree(run, axle, 1e-11)
 
@@ -149,8 +151,8 @@ def test_steps_continue_as_in_python_and_outputs_of_a_restored_state_are_the_sam
         axle.step(1e-3, torque, *CURRENT[1:])
     # other instructions on another processor type: roundings grow over 20 ms to below 1e-9
     assert_outputs_agree(run, axle, 1e-9)
-    assert run.state[native.model.exchange.inputs_at :][:3].tolist() == [79.0, *CURRENT[1:]]
-    other = native.instance(values, [0.0, 0.0, 300.0])
+    assert run.state[native.model.exchange.inputs_at :][:4].tolist() == [79.0, *CURRENT[1:]]
+    other = native.instance(values, [0.0, 0.0, 300.0, 0.0])
     assert other(Operation.RESUME) == OK
     other.state[:] = run.state
     assert other(Operation.OUTPUTS) == OK

@@ -28,6 +28,7 @@ from fmu_src.native.helical_parameters import (
     TRIAL_AT,
 )
 from fmu_src.native.model import OK, NativeModel, Operation
+from fmu_src.variable import taken_holder
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.helical_model.outputs import (
     LOAD_TORQUE,
@@ -47,6 +48,7 @@ from gearlube_core.dynamics.train.element import RZ, W
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import TABLE, pair_data_at
 from gearlube_core.dynamics.train.march import MAX_STEPS, NOT_FINITE, TOO_FAST, TOO_MANY_STEPS
 from gearlube_core.dynamics.train.plan import OF_TABLES
+from gearlube_core.dynamics.train.stepped_model import REVERSED
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.film_model.net import N_NUMBERS
 from gearlube_core.kernels.flat_tuples import count_floats
@@ -107,8 +109,9 @@ def check_packed(loaded: LoadedModel, seed: int, count: int) -> None:
         assert native(Operation.RESUME) == OK
         given = {v.argument: v.decoded(x) for v, x in zip(PARAMETERS, values, strict=True)}
         del given["pinion_speed"]
+        holder = taken_holder(given)
         parameters = pair_parameters(given)
-        check_train(native, assemble(*helical_pair(parameters), parameters.oil))
+        check_train(native, assemble(*helical_pair(parameters, holder), parameters.oil))
         shares = native.work[BEARINGS_AT:GIVEN_AT]
         np.testing.assert_array_equal(shares, bearing_shares(parameters))
         ranges = native.work[model.ranges_at : model.ranges_at + 2 * len(model.ranges)]
@@ -134,7 +137,7 @@ def check_starts(loaded: LoadedModel, seed: int, count: int) -> None:
         values = usual_values(rng)
         values[1] = rng.uniform(-500.0, 500.0)  # rad/s
         torque = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(0.0, 3.0)
-        inputs = [torque, torque, rng.uniform(290.0, 400.0)]
+        inputs = [torque, torque, rng.uniform(290.0, 400.0), values[1] * rng.uniform(0.9, 1.1)]
         native = instance(loaded, values, inputs)
         status = native(Operation.START)
         try:
@@ -214,6 +217,9 @@ REFUSED = [
     ({"mesh__stiffness_model": "line_mesh"}, {1: -900.0}, INPUT_OUT_OF_RANGE),  # 1.5 * 1.24 * 450
     ({}, {0: math.nan}, INPUT_OUT_OF_RANGE),
     ({}, {2: 200.0}, INPUT_OUT_OF_RANGE),
+    ({}, {3: 5001.0}, INPUT_OUT_OF_RANGE),
+    ({}, {3: -5001.0}, INPUT_OUT_OF_RANGE),
+    ({"speed__hold": "imposed"}, {3: -100.0}, REVERSED),
     # shafts that give way by more than their radius
     ({"support__radial_stiffness": 1.0, "friction__model": "off"}, {0: 8e4}, NO_EQUILIBRIUM),
 ]
@@ -264,7 +270,7 @@ def test_updates_of_the_friction_leave_fewer_steps(shipped: LoadedModel) -> None
 
 
 def test_every_status_has_words(shipped: LoadedModel, tmp_path: Path) -> None:
-    told = {*range(1, COUPLING_TOO_LARGE + 1), TOO_FAR}
+    told = {*range(1, COUPLING_TOO_LARGE + 1), TOO_FAR, REVERSED}
     assert set(shipped.model.refusals) == told | {MISSING_CASE + i for i in (3, 5, 6, 7)}
     carried = own_gear(tmp_path, str)
     assert set(carried.refusals) == told | {MISSING_CASE + i for i in (3, 5, 7)}

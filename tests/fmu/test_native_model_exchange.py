@@ -212,17 +212,16 @@ def test_directional_derivatives_are_those_of_rates_and_outputs(
     reals = [v.name for v in native_case.definition.variables
              if v.causality == "output" and v.type == "Real" and "range" not in v.name]  # fmt: skip
     names = [*fmu.rates, *reals]
-    inputs = ["pinion.torque", "wheel.torque", "oil.temperature"]
+    inputs = ["pinion.torque", "wheel.torque", "oil.temperature", "speed.reference"]
     present = turning.get(inputs)
-    of_inputs = np.array([100.0, 100.0, 10.0])
+    of_inputs = np.array([100.0, 100.0, 10.0, 10.0])
     for _ in range(5):
-        seed = rng.uniform(-1.0, 1.0, nominals.size + 3) * np.append(nominals, of_inputs)
+        seed = rng.uniform(-1.0, 1.0, nominals.size + 4) * np.append(nominals, of_inputs)
 
         def at(share: float, seed: Array = seed) -> Array:
-            pinion, wheel, oil = present + share * seed[-3:]
-            values = {"pinion.torque": pinion, "wheel.torque": wheel, "oil.temperature": oil}
-            fmu.set(turning.model, {name: float(value) for name, value in values.items()})
-            return turning.at(here + share * seed[:-3], names)
+            values = dict(zip(inputs, (present + share * seed[-4:]).tolist(), strict=True))
+            fmu.set(turning.model, values)
+            return turning.at(here + share * seed[:-4], names)
 
         wanted = difference(at, 1e-5)
         at(0.0)
@@ -233,7 +232,7 @@ def test_directional_derivatives_are_those_of_rates_and_outputs(
 
 
 def test_outputs_declared_without_feed_through_have_none(fmu: Unpacked, turning: Exchange) -> None:
-    inputs = {"pinion.torque", "wheel.torque", "oil.temperature"}
+    inputs = {"pinion.torque", "wheel.torque", "oil.temperature", "speed.reference"}
     free = [
         one.variable.name
         for one in fmu.description.outputs

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.hypoid_axle import DEFINITION
+from fmu_src.variable import OF_RUN
 from gearlube_core.friction.flank_friction import friction_law
 
 PARAMETERS = [v for v in DEFINITION.variables if v.is_model_parameter]
@@ -41,9 +42,11 @@ def drivable(rng):
     values["steps_per_mesh_period"], values["steps_per_highest_period"] = 64, 22
     if not friction_law(values["friction"]).solved_film:
         values["film"] = "formula"
+    values["governor_gain"], values["time_constant"] = rng.uniform(1.0, 50.0), 1e-3
     torque = rng.uniform(-400.0, 400.0)
-    return values, [torque, torque * 36 / 13, rng.uniform(300.0, 380.0)]
+    reference = values["pinion_speed"] * rng.uniform(0.9, 1.1)
+    return values, [torque, torque * 36 / 13, rng.uniform(300.0, 380.0), reference]
 
 
 def in_python(values):
-    return axle_parameters({k: v for k, v in values.items() if k != "pinion_speed"})
+    return axle_parameters({k: v for k, v in values.items() if k not in OF_RUN})

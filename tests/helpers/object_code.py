@@ -101,7 +101,12 @@ class LoadedModel:
         return self._entry(int(Operation.CHECK), 0.0, *pointers) == 0
 
     def instance(self, values: dict[str, Any], inputs: Any) -> NativeRun:
-        """Return an instance with parameters by argument, the others at their start values."""
+        """Return an instance with parameters by argument, the others at their start values.
+
+        Inputs that are left out at the end have theirs too.
+        """
+        given = [v.start for v in self.model.definition.variables if v.causality == "input"]
+        inputs = [*inputs, *given[len(inputs) :]]
         found = []
         for variable in self.model.definition.variables:
             if variable.is_model_parameter:

@@ -8,7 +8,6 @@ import xarray as xr
 
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.damage.bins import is_bins, joined, read_bins
-from gearlube.damage.figures import tooth_figure
 from gearlube.damage.report import damage_report, findings
 from gearlube.damage.run import run_damage
 from gearlube.damage.settings import DamageSettings, rated_bearing, rated_pair
@@ -220,9 +219,3 @@ def test_a_run_that_was_stopped_goes_on_with_the_bins_that_it_lacks(car, tmp_pat
     assert [at[0] for at in asked] == [550.0, 450.0, 450.0]
     xr.testing.assert_identical(found, run_damage(DamageSettings(car=car, bins=HARD)))
     assert not (tmp_path / "bins").exists()
-
-
-def test_every_frame_of_the_maps_has_a_map(both):
-    """An odd number of maps leaves no empty frame."""
-    figure = tooth_figure(both.sel(side="drive").drop_vars("heat_map"), "drive")
-    assert all(ax.collections for ax in figure.axes)

@@ -39,7 +39,7 @@ ROLLERS, APPROACH, EXPONENT = 1e9, 2e-8, 10.0 / 9.0  # N/m^n; lightly pressed: 2
 @pytest.fixture
 def linear(monkeypatch):
     """A linearised axle whose forces are those above."""
-    at = 1e-6 * RANDOM.normal(size=N_ODE + 4)
+    at = 1e-6 * RANDOM.normal(size=SIDE + 1)
     at[PLACES] = RANDOM.normal(size=8)
     renewed = []
 

@@ -22,6 +22,7 @@ from gearlube_core.dynamics.helical_model.pair import bearing_shares, helical_pa
 from gearlube_core.dynamics.helical_pair.march.parameters import HelicalMarchParameters
 from gearlube_core.dynamics.train.assemble import assemble
 from gearlube_core.dynamics.train.element import RZ, W
+from gearlube_core.dynamics.train.elements.held_port import SpeedHolder
 from gearlube_core.dynamics.train.march import NOT_FINITE, REFUSALS, START
 from gearlube_core.dynamics.train.stepped_model import (
     SteppedModel,
@@ -87,6 +88,8 @@ class HelicalPairModel(SteppedModel[StepControl]):
     Parameters
     ----------
     parameters : HelicalMarchParameters
+    holder : SpeedHolder, optional
+        Of the speed of the pinion, by default none.
 
     Notes
     -----
@@ -115,9 +118,11 @@ class HelicalPairModel(SteppedModel[StepControl]):
     0.0
     """
 
-    def __init__(self, parameters: HelicalMarchParameters) -> None:
+    def __init__(
+        self, parameters: HelicalMarchParameters, holder: SpeedHolder | None = None
+    ) -> None:
         self.parameters = parameters
-        made = assemble(*helical_pair(parameters), parameters.oil, kinds=())
+        made = assemble(*helical_pair(parameters, holder), parameters.oil, kinds=())
         of_pair = float(parameters.pair.pinion_teeth), bearing_shares(parameters)
         self._of_pair = FREE[parameters.form], *of_pair
         super().__init__(
@@ -128,6 +133,7 @@ class HelicalPairModel(SteppedModel[StepControl]):
             torque_limits=torque_limits(parameters),
             ranges=parameters.ranges,
             words=WORDS,
+            holder=holder,
         )
 
     _status = staticmethod(state_status)

@@ -17,6 +17,8 @@ from gearlube_core.dynamics.helical_pair.march.line_outputs import LINE_BOUNDS, 
 from gearlube_core.dynamics.mean_power import mean_power
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.element import BODY_STATES, RATE, RZ, W
+from gearlube_core.dynamics.train.elements import held_port
+from gearlube_core.dynamics.train.elements.held_port import N_KEPT, PINION_HOLD_TORQUE
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.spring_support import SpringSupport
 from gearlube_core.dynamics.train.outputs import IDLE_WORK, TURNING
@@ -31,8 +33,11 @@ PSI = 2 * BODY_STATES  # relative rotation along the line of action [m]
 WORKS = PSI + 1  # of pinion and wheel; then losses: friction, dampers of the mesh, of the bearings
 N_ENERGIES = 5
 N_INTEGRATED = WORKS + N_ENERGIES
-TORQUES = N_INTEGRATED  # of the ports on pinion and wheel [N.m]
-LOAD_TORQUE = TORQUES + 2  # filtered, selects the level of the line mesh [N.m]
+TORQUES = N_INTEGRATED  # of the ports on pinion and, behind what the first one keeps, wheel [N.m]
+SPEED_REFERENCE = TORQUES + held_port.REFERENCE  # [rad/s]
+HOLD_TORQUE = TORQUES + held_port.HOLD_TORQUE  # of the holder of that speed [N.m]
+WHEEL_TORQUE = TORQUES + N_KEPT
+LOAD_TORQUE = WHEEL_TORQUE + 1  # filtered, selects the level of the line mesh [N.m]
 MARKS = LOAD_TORQUE + 1 + N_FRICTION  # energies at the start of the last step [J]
 DURATION = MARKS + N_ENERGIES  # of that step [s]
 N_STATE = DURATION + 1
@@ -88,7 +93,7 @@ _OUTPUTS: tuple[str, ...] = (
     *RANGE_OUTPUTS,
 )
 # outputs that the table of the FMU's variables takes from here, with unit and text
-OWN_OUTPUTS: tuple[Output, ...] = ()
+OWN_OUTPUTS: tuple[Output, ...] = (PINION_HOLD_TORQUE,)
 # for another integrator: the other states, the rates of all, and the event indicators
 _OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
 OUTPUT_NAMES = (
@@ -121,8 +126,9 @@ SENSES = np.array([sense for _, sense in _STATES.values()])
 # of rates in what EXCHANGE writes: that of the load level is behind the integrated states
 _RATE_PLACES = np.minimum(STATE_PLACES, N_INTEGRATED)
 _N_EVENTS = len(EVENT_INDICATORS)
-# in what WRITE writes: outputs of the bodies begin here, behind them are those of the mesh
+# in what WRITE writes: outputs of the bodies begin here, behind them those of input and mesh
 _WRITTEN = N_INTEGRATED + 1 + _N_EVENTS
+_OF_INPUT = len(held_port.HeldPort.outputs)
 _OF_MESH = tuple(one.name for one in HelicalMesh.outputs)
 _NAMED = tuple(f"mesh.{one}" if f"mesh.{one}" in OUTPUT_NAMES else one for one in _OF_MESH)
 _COPIED = np.array([i for i, name in enumerate(_NAMED) if name in OUTPUT_NAMES])
@@ -131,6 +137,7 @@ _BOUND = _OF_MESH.index("friction_bound_relative")
 # from the mesh: two supports, powers of all energies, efficiency, energies
 _STORED = len(_OF_MESH) + 2 * len(SpringSupport.outputs) + 2 * N_ENERGIES + 1
 
+_HOLD_TORQUE = OUTPUT_INDEX[PINION_HOLD_TORQUE.name]
 _ACCELERATION = OUTPUT_INDEX["pinion.acceleration"]
 _DTE, _FREQUENCY = OUTPUT_INDEX["mesh.dte"], OUTPUT_INDEX["mesh.frequency"]
 _LOSS_BOUND = OUTPUT_INDEX["friction.power_loss_bound"]
@@ -213,11 +220,12 @@ def write_pair(s: Array, free: int, teeth: float, bearings: Array, work: Array, 
     """
     write_derivatives(work, out)
     write_motion(s, work, teeth, bearings, out)
-    mesh = _WRITTEN + 2 * (len(TURNING) + free)
+    mesh = _WRITTEN + 2 * (len(TURNING) + free) + _OF_INPUT
     for i in range(_COPIED.size):
         out[_COPIED_TO[i]] = work[mesh + _COPIED[i]]
     out[_ACCELERATION] = 0.0 - work[PINION + W]
     out[_ACCELERATION + 1] = work[WHEEL + W]
+    out[_HOLD_TORQUE] = s[HOLD_TORQUE]
     bound = work[mesh + _BOUND]
     out[_LOSS_BOUND] = bound * abs(out[_FRICTION_LOSS])
     lossy = out[_EFFICIENCY] > 0.0

@@ -19,6 +19,11 @@ from gearlube_core.dynamics.helical_pair.supports import (
     member_stiffness,
 )
 from gearlube_core.dynamics.train.element import N_COORDINATES, Axes
+from gearlube_core.dynamics.train.elements.held_port import (
+    HeldPort,
+    HeldPortKernels,
+    SpeedHolder,
+)
 from gearlube_core.dynamics.train.elements.helical_mesh import HelicalMesh
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import HelicalMeshKernels
 from gearlube_core.dynamics.train.elements.port import Port
@@ -40,17 +45,20 @@ BEARING_FIELDS = 8  # of one bearing: K_x, K_x_ay, K_y, K_y_ax, K_z, c_x, c_y, c
 # places in the numbers of the train: oil, sign of each port, mesh, springs and mobility of each
 # member
 _PORTS = count_floats(LubricantParameters)
-_MESH = _PORTS + 2
+_MESH = _PORTS + count_floats(HeldPortKernels) + 1
 _SPRINGS = _MESH + count_floats(HelicalMeshKernels)
 _N_SPRINGS = count_floats(SpringKernels)
 _MOBILITY = _SPRINGS + 2 * _N_SPRINGS
 N_NUMBERS = _MOBILITY + 2 * N_COORDINATES
 
 
-def helical_pair(parameters: HelicalMarchParameters) -> tuple[list[Body], list[Element]]:
+def helical_pair(
+    parameters: HelicalMarchParameters, holder: SpeedHolder | None = None
+) -> tuple[list[Body], list[Element]]:
     """Return the bodies and elements of a pair, in the axes of `HelicalPairModel`.
 
-    Ports are "input" on the pinion, which drives about -z, and "output", a load on the wheel.
+    Ports are "input" on the pinion, which drives about -z and whose speed `holder` may hold, and
+    "output", a load on the wheel.
 
     Notes
     -----
@@ -98,7 +106,7 @@ def helical_pair(parameters: HelicalMarchParameters) -> tuple[list[Body], list[E
     )
     ratio = parameters.support_damping_ratio
     return bodies, [
-        Port(name="input", body="pinion", sign=-1.0),
+        HeldPort(name="input", body="pinion", sign=-1.0, holder=holder or SpeedHolder()),
         Port(name="output", body="wheel", sign=-1.0),
         mesh,
         *(spring_support(f"{name} bearings", name, one, ratio) for name, one in members.items()),
@@ -186,7 +194,12 @@ def _write_mobility(body: GivenBody, held: float, first: int, out: Array) -> Non
 
 @kernel
 def write_numbers(
-    given: Array, oil: LubricantParameters, choices: Array, per_mesh_period: float, numbers: Array
+    given: Array,
+    oil: LubricantParameters,
+    choices: Array,
+    per_mesh_period: float,
+    holder: Array,
+    numbers: Array,
 ) -> None:
     """Write the numbers of the train of a pair.
 
@@ -197,13 +210,18 @@ def write_numbers(
     oil : LubricantParameters
     per_mesh_period : float
         Integrator steps per mesh period.
+    holder : ndarray of shape (3,)
+        Numbers of `SpeedHolder`.
     numbers : ndarray of shape (N_NUMBERS,)
     """
     pair: GivenPair = tuple_from_array(given, GivenPair)
     chosen: MarchChoices = tuple_from_array(choices, MarchChoices)
     ratio = chosen.support_damping_ratio
     tuple_to_array(oil, numbers)
-    numbers[_PORTS] = numbers[_PORTS + 1] = -1.0
+    numbers[_PORTS] = numbers[_MESH - 1] = -1.0
+    numbers[_PORTS + 1] = pair.pinion.polar_inertia
+    for i in range(holder.size):
+        numbers[_PORTS + 2 + i] = holder[i]
     mesh = HelicalMeshKernels(Axes(1.0, 0.0, 1.0, 1.0), 0.0, 0.0, per_mesh_period, 1.0)
     tuple_to_array(mesh, part(numbers, _MESH, _SPRINGS - _MESH))
     of_gear = _SPRINGS + _N_SPRINGS

@@ -21,6 +21,7 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import (
 )
 from gearlube_core.dynamics.train.assemble import Assembly
 from gearlube_core.dynamics.train.elements.drag import Churning, Seal
+from gearlube_core.dynamics.train.elements.held_port import HeldPort, SpeedHolder
 from gearlube_core.dynamics.train.elements.hypoid_mesh import HypoidMesh
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import AT_MEANS
 from gearlube_core.dynamics.train.elements.opposed_bearings import OpposedBearings
@@ -34,10 +35,13 @@ from gearlube_core.oil.lubricant import Lubricant
 _PINION_AXES = (2, 1, 0)  # the shaft lies along x; z is turned towards y in the drive direction
 
 
-def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Element]]:
+def hypoid_axle(
+    parameters: HypoidAxleParameters, holder: SpeedHolder | None = None
+) -> tuple[list[Body], list[Element]]:
     """Return the bodies and elements of an axle, in the frame of `HypoidAxle`.
 
-    Ports are "input" on the pinion and "output", a load on the gear.
+    Ports are "input" on the pinion, whose speed `holder` may hold, and "output", a load on the
+    gear.
 
     Examples
     --------
@@ -90,7 +94,10 @@ def hypoid_axle(parameters: HypoidAxleParameters) -> tuple[list[Body], list[Elem
             oil_volume=given.oil_volume,
         ),
     ]
-    ports = [Port(name="input", body="pinion"), Port(name="output", body="gear", sign=-1.0)]
+    ports = [
+        HeldPort(name="input", body="pinion", holder=holder or SpeedHolder()),
+        Port(name="output", body="gear", sign=-1.0),
+    ]
     return bodies, [*ports, mesh, *bearings, *drags]
 
 
@@ -116,7 +123,7 @@ def numbers_at_rest(
     """
     found = [flatten(oil.parameters())]
     for one in elements:
-        given: Any = one.numbers()
+        given: Any = one.numbers_among(made.bodies)
         if isinstance(one, HypoidMesh):
             given = given._replace(friction=0.0)
         if isinstance(one, OpposedBearings):

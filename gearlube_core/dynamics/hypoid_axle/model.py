@@ -23,6 +23,7 @@ from gearlube_core.dynamics.hypoid_mesh.parameters import (
     HypoidAxleParameters,
 )
 from gearlube_core.dynamics.train.assemble import assemble
+from gearlube_core.dynamics.train.elements.held_port import SpeedHolder
 from gearlube_core.dynamics.train.march import NOT_FINITE, REFUSALS, START
 from gearlube_core.dynamics.train.rest_search import OK
 from gearlube_core.dynamics.train.stepped_model import (
@@ -98,6 +99,8 @@ class HypoidAxle(SteppedModel[StepControl]):
     loss_sensitivities : ndarray of shape (8, 8), optional
         For `loss.low` and `loss.high`, see `loss_band.loss_sensitivities`; without them both are
         the power lost in all.
+    holder : SpeedHolder, optional
+        Of the speed of the pinion, by default none.
 
     Notes
     -----
@@ -122,7 +125,10 @@ class HypoidAxle(SteppedModel[StepControl]):
     """
 
     def __init__(
-        self, parameters: HypoidAxleParameters, loss_sensitivities: Array = NO_BAND
+        self,
+        parameters: HypoidAxleParameters,
+        loss_sensitivities: Array = NO_BAND,
+        holder: SpeedHolder | None = None,
     ) -> None:
         if parameters.flank_bulk_resistance > 0.0:
             raise ParameterError(
@@ -130,7 +136,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             )
         self.parameters = parameters
         self.kernel_parameters: AxleParameters = parameters.kernel_parameters()
-        bodies, self.elements = hypoid_axle(parameters)
+        bodies, self.elements = hypoid_axle(parameters, holder)
         made = assemble(bodies, self.elements, parameters.oil, kinds=())
         self._at_rest = numbers_at_rest(self.elements, made, parameters.oil)
         self._places, self._band = output_places(made), loss_sensitivities.ravel()
@@ -142,6 +148,7 @@ class HypoidAxle(SteppedModel[StepControl]):
             torque_limits=torque_limits(parameters),
             ranges=parameters.ranges,
             words=_WORDS,
+            holder=holder,
         )
 
     _status = staticmethod(state_status)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gearlube_core.dynamics.hypoid_mesh.flank_outputs import FLANK_BOUNDS, FLANK_OUTPUTS
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
+from gearlube_core.dynamics.train.elements.held_port import PINION_HOLD_TORQUE
 from gearlube_core.number import Output
 
 # outputs that hold the continuous states, in the order of the state vector
@@ -104,6 +105,7 @@ _BAND = "end of the band of 95 % of the power lost in all, by its uncertain data
 OWN_OUTPUTS: tuple[Output, ...] = (
     Output("loss.low", "W", f"Lower {_BAND}", 100.0),
     Output("loss.high", "W", f"Upper {_BAND}", 100.0),
+    PINION_HOLD_TORQUE,
 )
 # for another integrator: the other states, the rates of all, and the event indicators
 _OTHER_STATES = tuple(name for name in STATE_NAMES if name not in _OUTPUTS)
@@ -138,6 +140,7 @@ DRAG_LOSS_BOUND = OUTPUT_INDEX["bearing.power_loss_bound"]
 AXLE_EFFICIENCY_BOUND = OUTPUT_INDEX["axle.efficiency_bound"]
 LOSS_LOW = OUTPUT_INDEX["loss.low"]
 LOSS_HIGH = OUTPUT_INDEX["loss.high"]
+HOLD_TORQUE = OUTPUT_INDEX[PINION_HOLD_TORQUE.name]
 FIRST_ROLLER = OUTPUT_INDEX["bearing[1].roller[1].load"]
 PINION_CAGE = OUTPUT_INDEX["bearing[1].cage.angle"]
 GEAR_CAGE = OUTPUT_INDEX["bearing[3].cage.angle"]
@@ -164,13 +167,14 @@ MOTION_OUTPUTS: tuple[str, ...] = (
     OUTPUT_NAMES[GEAR_CAGE],
     *OUTPUT_NAMES[ENERGIES:STORED_ENERGY],
     *_OTHER_STATES,
-    *(one.name for one in OWN_OUTPUTS),
+    *OUTPUT_NAMES[LOSS_LOW : LOSS_HIGH + 1],
 )
 
 # what the right-hand side gives, besides what model exchange calls rates and event indicators
 RATE_OUTPUTS: tuple[str, ...] = (
     OUTPUT_NAMES[PINION_ACCELERATION],
     OUTPUT_NAMES[WHEEL_ACCELERATION],
+    OUTPUT_NAMES[HOLD_TORQUE],
 )
 # what follows from the flanks alone, and from forces of bearings and stored energy; films of
 # rollers are dear, and come with all outputs
@@ -188,5 +192,5 @@ BEARING_GROUP: tuple[str, ...] = (
 
 # of motion, what an input changes at once while no step has been taken
 POWERS = frozenset(
-    (*OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1], *(one.name for one in OWN_OUTPUTS))
+    OUTPUT_NAMES[FRICTION_LOSS : AXLE_EFFICIENCY_BOUND + 1] + OUTPUT_NAMES[LOSS_LOW : LOSS_HIGH + 1]
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from gearlube_core.arrays import Array
 from gearlube_core.bearings.bearing_type import ShaftMotion
 from gearlube_core.dynamics.train.element import BODY_STATES, RATE, RZ, W
+from gearlube_core.dynamics.train.elements.held_port import N_KEPT, REFERENCE
 
 PINION, GEAR = 0, BODY_STATES
 U_P, V_P = PINION, PINION + RATE  # displacement [m] and velocity [m/s] of the pinion, x y z
@@ -20,8 +21,9 @@ PINION_WORK, WHEEL_WORK = X + 3, X + 4  # work put in; a load of the wheel takes
 ) = range(WHEEL_WORK + 1, WHEEL_WORK + 9)  # fmt: skip
 FRICTION_BOUND, BEARING_BOUND = CHURNING + 1, CHURNING + 2  # of losses by solved films [J]
 N_ODE = BEARING_BOUND + 1  # everything above is integrated
-PINION_TORQUE, WHEEL_TORQUE = N_ODE, N_ODE + 1  # of the last step [N.m]
-LOAD_TORQUE = N_ODE + 2  # filtered abs(pinion torque) that selects the load level [N.m]
+# of the last step: torques [N.m], and the speed at which the pinion is held [rad/s]
+PINION_TORQUE, SPEED_REFERENCE, WHEEL_TORQUE = N_ODE, N_ODE + REFERENCE, N_ODE + N_KEPT
+LOAD_TORQUE = WHEEL_TORQUE + 1  # filtered abs(pinion torque) that selects the load level [N.m]
 SIDE = LOAD_TORQUE + 1  # below 0: the mesh data are those of the coast flanks [-]
 
 

@@ -25,6 +25,7 @@ from gearlube_core.dynamics.hypoid_axle.output_names import (
     EVENTS,
     FILM_QUANTITIES,
     FRICTION_LOSS,
+    HOLD_TORQUE,
     LOSS_BOUND,
     LOSS_HIGH,
     LOSS_LOW,
@@ -45,6 +46,7 @@ from gearlube_core.dynamics.hypoid_mesh.mesh_force import MeshForceConstants
 from gearlube_core.dynamics.ranges import RANGE_OUTPUTS
 from gearlube_core.dynamics.train.assemble import Assembly
 from gearlube_core.dynamics.train.element import W
+from gearlube_core.dynamics.train.elements import held_port
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import (
     AT_KEPT,
     AT_X,
@@ -130,6 +132,7 @@ N_GATHERED = N_OUTPUTS + len(_SOURCES) + 1
 N_BAND = 64  # numbers of `loss_sensitivities`: eight losses in eight directions
 NO_BAND = np.zeros(N_BAND)
 _END, _WIDEST = 1.96, 7.0  # standard deviations that hold 95 %; of the logarithm of a band's end
+_OF_INPUT = len(held_port.HeldPort.outputs)  # which come before those of the mesh
 _NOWHERE = 0.5  # a place of an output that is made of others
 
 
@@ -147,6 +150,7 @@ def output_places(made: Assembly) -> Array:
         places[name] = -1 - states[STATES[name]].place
         places[rate] = states[STATES[name]].rate
     places["pinion.acceleration"], places["wheel.acceleration"] = W_P, W_G  # among the rates
+    places[OUTPUT_NAMES[HOLD_TORQUE]] = -1 - (made.kept["input"] + held_port.HOLD_TORQUE)
     of_events = [one.place for one in made.events]
     places |= dict(zip(EVENT_INDICATORS, of_events, strict=True))
     found = [
@@ -262,6 +266,7 @@ def gather_rates(s: Array, work: Array, places: Array, out: Array) -> None:
     """Write rates, accelerations and event indicators that EXCHANGE has left in `work`."""
     out[PINION_ACCELERATION] = _value(s, work, places, PINION_ACCELERATION)
     out[WHEEL_ACCELERATION] = _value(s, work, places, WHEEL_ACCELERATION)
+    out[HOLD_TORQUE] = _value(s, work, places, HOLD_TORQUE)
     for i in range(RATES, EVENTS + len(EVENT_INDICATORS)):
         out[i] = _value(s, work, places, i)
 
@@ -295,6 +300,7 @@ def gather_motion(
         Places of `MOTION_OUTPUTS`.
     """
     first = write_state(s, part(work, 0, sizes.integrated), numbers, sizes, work)
+    first += _OF_INPUT
     mesh, x = force_at_load(p, at, memory, s, series), s[at[AT_X]]
     work[first], work[first + 1] = x, mesh.stiffness
     work[first + 2] = 1.0 if -p.backlash < x < 0.0 else 0.0

@@ -140,8 +140,8 @@ def assemble(
     for one in elements:
         if exponential > 0 and hasattr(type(one.numbers()), "after_forces"):
             raise ParameterError(
-                "integration must be automatic or rk4 for a train with bodies on carriers, got "
-                f"exponential, and {one.name} takes one around."
+                "integration must be automatic or rk4 for a train with bodies on carriers or a "
+                f"held_port, got exponential, and {one.name} changes accelerations."
             )
         one.fits(bodies, elements)
     check_axes(elements)
@@ -173,11 +173,12 @@ def assemble(
         size += one.kept_size()
     numbers, memory = [flatten(oil.parameters())], []
     kinds = shipped_kinds() if kinds is None else kinds
+    ports = {one.name: one for one in elements}
     listed, rows, shapes, curved = list[Listed](), [], [], list[str]()
     at_number, at_memory, at_output, at_exchanged = numbers[0].size, 0, 0, 0
     for one in elements:
-        constants, room = one.numbers(), one.memory_among(bodies)
-        beside = [getattr(one, field) for field in one.beside]
+        constants, room = one.numbers_among(bodies), one.memory_among(bodies)
+        beside = [ports.get(getattr(one, field)) for field in one.beside]
         at = (
             *(of_body[getattr(one, field)] for field in one.on),
             *own[one.name],
@@ -185,7 +186,7 @@ def assemble(
             *(losses[f"{heads[one.name]}{loss}"] for loss in one.losses),
             *(bounds[bound] for bound in one.bounds),
             *((kept[one.name],) if one.kept_size() else ()),
-            *(0 if other is None else kept[other] for other in beside),
+            *(0 if other is None else kept[other.name] + other.torque_at for other in beside),
             *one.sizes(),
         )
         numbers.append(flatten(constants))

@@ -14,6 +14,7 @@ from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.assemble import Bodies, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
 from gearlube_core.dynamics.train.element import COORDINATES
+from gearlube_core.dynamics.train.elements.held_port import REFERENCE, HeldPort
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
@@ -107,6 +108,11 @@ class Train(MarchedTrain):
         self._output_names = tuple(one.name for one in self._made.outputs)
         ports = (one.name for one in elements if isinstance(one, Port))
         self._ports = {name: self._made.kept[name] for name in ports}
+        self.references = {
+            f"{one.name}.speed_reference": one.speed_reference
+            for one in elements
+            if isinstance(one, HeldPort) and one.holder.mode != "none"
+        }
         self._continuous = np.array([one.place for one in self._made.continuous])
         self._rate_places = np.array([one.rate for one in self._made.continuous])
         self._events = np.array([one.place for one in self._made.events], dtype=int)
@@ -142,7 +148,7 @@ class Train(MarchedTrain):
             Speed about z of as many bodies as can turn independently [rad/s]; all others follow.
         torques : mapping
             Of every port [N.m]. The first bodies of `speeds` bear what they leave, as many as can
-            turn independently.
+            turn independently. Others of `references` than those of the ports, by their names.
         oil_temperature : float
             [K]
 
@@ -161,11 +167,14 @@ class Train(MarchedTrain):
         status = int(self._call(START, trial, per_period, temperature=temperature))
         if status != OK:
             self._refuse(status, speeds)
+        self._put({**self.references, **torques}, oil_temperature)
         self._state[:] = trial
         self._beside[:] = temperature, work[0]
 
     def step(self, h: float, torques: Mapping[str, float], oil_temperature: float) -> None:
         """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
+
+        Beside the torques there may be new ones of `references` [rad/s].
 
         Raises
         ------
@@ -326,6 +335,8 @@ class Train(MarchedTrain):
 
     def _put(self, torques: Mapping[str, float], oil_temperature: float) -> None:
         """Check the inputs, and put the torques into the trial."""
+        speeds = {name: torques[name] for name in self.references if name in torques}
+        torques = {name: one for name, one in torques.items() if name not in speeds}
         missing = sorted(set(self._ports) ^ set(torques))
         if missing:
             raise ParameterError(
@@ -335,8 +346,16 @@ class Train(MarchedTrain):
         for name, torque in torques.items():
             check_within(f"torque of {name}", torque, -MOST_TORQUE, MOST_TORQUE, "N.m")
         self.oil.check_temperature(oil_temperature, "oil_temperature")
+        for name, speed in speeds.items():
+            check_within(name, speed, -MAX_SPEED, MAX_SPEED, "rad/s")
+            self._trial[self.place_of_input(name)] = speed
         for name, torque in torques.items():
             self._trial[self._ports[name]] = torque
+
+    def place_of_input(self, name: str) -> int:
+        """Return the place in the state of the torque of a port, or of one of `references`."""
+        port, _, reference = name.partition(".")
+        return self._made.kept[port] + (REFERENCE if reference else 0)
 
     def _wanted(self, speeds: Mapping[str, float]) -> Array:
         """Return what START takes: the body that bears the rest, then the speed of each or NaN."""

@@ -159,6 +159,7 @@ class Element(Checked, ABC):
     beside: ClassVar[tuple[str, ...]] = ()  # fields that name ports, or None
     states: ClassVar[tuple[Output, ...]] = ()  # own integrated states, steady in steady turning
     angles: ClassVar[tuple[str, ...]] = ()  # own integrated states that turn on
+    torque_at: ClassVar[int] = 0  # of a port, where among what it keeps its torque stands
     lags: ClassVar[tuple[Output, ...]] = ()  # those that `at_rest` writes, such as of a control
     works: ClassVar[tuple[str, ...]] = ()  # energies put into the train
     losses: ClassVar[tuple[str, ...]] = ()  # energies lost, shared by all elements that name them
@@ -177,6 +178,10 @@ class Element(Checked, ABC):
     @abstractmethod
     def numbers(self) -> tuple[Any, ...]:
         """Return a NamedTuple of floats whose methods are the kernels of `element`."""
+
+    def numbers_among(self, bodies: Sequence[Body]) -> tuple[Any, ...]:
+        """Return `numbers` where they depend on the bodies of the train."""
+        return self.numbers()
 
     def variants(self) -> tuple[type, ...]:
         """Return the classes of parts among `numbers` that are of any class."""

@@ -24,6 +24,7 @@ from gearlube_core.dynamics.ranges import (
 )
 from gearlube_core.dynamics.train.assemble import Assembly
 from gearlube_core.dynamics.train.choice import generated_kernel
+from gearlube_core.dynamics.train.elements.held_port import N_KEPT, REFERENCE, SpeedHolder
 from gearlube_core.dynamics.train.march import DIVERGED, NOT_FINITE, TOO_FAST, WRITE
 from gearlube_core.dynamics.train.marched import MarchedTrain
 from gearlube_core.dynamics.train.rest_search import NO_MODES, OK
@@ -37,7 +38,12 @@ Control = TypeVar("Control", bound=tuple[float, ...])  # a NamedTuple of floats
 MAX_STEP = 0.1  # s, communication step
 # of MAX_STEP: a host's step is a difference of times, rounded at late times
 STEP_ROUNDING = 1e-3
-_N_INPUTS = 3
+_N_INPUTS = 4
+REVERSED = 30  # status of a start, beside those of the kernels
+REVERSED_WORDS = (
+    "speed.reference must not be against pinion.speed_start where the speed is held. Start in the "
+    "sense of the reference, or at 0 rad/s"
+)
 
 
 @kernel
@@ -124,6 +130,8 @@ class SteppedModel(MarchedTrain, Generic[Control]):
         Of tables and formulas, in the order of `ranges.RANGE_OUTPUTS` without the first.
     words
         For messages.
+    holder
+        Of the speed of the first port, a `HeldPort`; by default none.
     """
 
     parameters: Any  # the one argument of the models
@@ -139,12 +147,14 @@ class SteppedModel(MarchedTrain, Generic[Control]):
         torque_limits: TorqueLimits,
         ranges: tuple[Range, ...],
         words: Words,
+        holder: SpeedHolder | None = None,
     ) -> None:
         beside = np.concatenate([np.zeros(_N_INPUTS), flatten(control)])
         super().__init__(made, generated_kernel(made), beside)
-        # torques of pinion and wheel [N.m], oil temperature [K]: of the last step
+        # of the last step: torques of pinion and wheel [N.m], oil temperature [K], reference speed
+        # of the pinion [rad/s]
         self._inputs, self._control_values = beside[:_N_INPUTS], beside[_N_INPUTS:]
-        self._first_port = made.sizes.integrated
+        self._first_port, self._holder = made.sizes.integrated, holder
         self.output_names = output_names
         self._outputs = np.zeros(len(output_names))
         self._control_type = type(control)
@@ -169,7 +179,7 @@ class SteppedModel(MarchedTrain, Generic[Control]):
         """Write the outputs from what WRITE has left."""
 
     def _given(self) -> dict[str, Any]:
-        return {"parameters": self.parameters}
+        return {"parameters": self.parameters, "holder": self._holder}
 
     @property
     def step_control(self) -> Control:
@@ -183,6 +193,7 @@ class SteppedModel(MarchedTrain, Generic[Control]):
         pinion_torque: float,
         wheel_torque: float,
         oil_temperature: float,
+        speed_reference: float | None = None,
     ) -> None:
         """Put the model into static equilibrium under the pinion torque, turning.
 
@@ -194,20 +205,26 @@ class SteppedModel(MarchedTrain, Generic[Control]):
             [N.m]; the wheel torque is a load.
         oil_temperature : float
             [K]
+        speed_reference : float, optional
+            At which a holder keeps the pinion [rad/s]; by default `pinion_speed`.
 
         Raises
         ------
         ParameterError
-            When an input is not finite or out of range.
+            When an input is not finite or out of range, or a held speed is to be reversed.
         ConvergenceError
             When no static equilibrium is found.
         """
         check_within("pinion_speed", pinion_speed, -MAX_SPEED, MAX_SPEED, "rad/s")
-        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
+        reference = pinion_speed if speed_reference is None else speed_reference
+        self._check_inputs(pinion_torque, wheel_torque, oil_temperature, reference)
+        if self._holder and self._holder.mode != "none" and reference * pinion_speed < 0.0:
+            got = f"got {reference:g} rad/s and {pinion_speed:g} rad/s"
+            raise ParameterError(f"{REVERSED_WORDS}; {got}.")
         before = self.get_state()
         self._state[:] = 0.0
-        self._inputs[:] = pinion_torque, wheel_torque, oil_temperature
-        self._put_torques(self._state, pinion_torque, wheel_torque)
+        self._inputs[:] = pinion_torque, wheel_torque, oil_temperature, reference
+        self._put_inputs(self._state, pinion_torque, wheel_torque, reference)
         status = self._start(float(pinion_speed))
         if status != OK:
             self._take_state(before)
@@ -218,13 +235,21 @@ class SteppedModel(MarchedTrain, Generic[Control]):
                 else f"no static equilibrium at a pinion torque of {pinion_torque:g} N.m: "
                 f"{words.forces} are out by {self._work[1]:g} N. {words.cure}"
             )
+        self._put_inputs(self._state, pinion_torque, wheel_torque, reference)
         self._control_values[:] = self._step_control(float(self._work[0]))
         self._write_outputs()
 
     def step(
-        self, h: float, pinion_torque: float, wheel_torque: float, oil_temperature: float
+        self,
+        h: float,
+        pinion_torque: float,
+        wheel_torque: float,
+        oil_temperature: float,
+        speed_reference: float | None = None,
     ) -> None:
         """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
+
+        The reference of a held speed [rad/s] stays as it is by default.
 
         Raises
         ------
@@ -239,12 +264,14 @@ class SteppedModel(MarchedTrain, Generic[Control]):
                 f"step size must be above 0 and at most {MAX_STEP:g} s, got {h:g} s. "
                 f"A communication step of about 1e-4 s resolves {self._words.resolved}."
             )
-        self._check_inputs(pinion_torque, wheel_torque, oil_temperature)
-        self._trial[:] = self._state
-        self._put_torques(self._trial, pinion_torque, wheel_torque)
-        self._march(h, float(oil_temperature))
         inputs = self._inputs
+        reference = float(inputs[3]) if speed_reference is None else speed_reference
+        self._check_inputs(pinion_torque, wheel_torque, oil_temperature, reference)
+        self._trial[:] = self._state
+        self._put_inputs(self._trial, pinion_torque, wheel_torque, reference)
+        self._march(h, float(oil_temperature))
         inputs[0], inputs[1], inputs[2] = pinion_torque, wheel_torque, oil_temperature
+        inputs[3] = reference
         self._write_outputs()
 
     def output(self, name: str) -> float:
@@ -288,17 +315,21 @@ class SteppedModel(MarchedTrain, Generic[Control]):
         if self._temperature() > 0.0:  # the model has been started
             self._write_outputs()
 
-    def _check_inputs(self, pinion_torque: float, wheel_torque: float, oil: float) -> None:
+    def _check_inputs(
+        self, pinion_torque: float, wheel_torque: float, oil: float, reference: float
+    ) -> None:
         (least, most, wheel, cure), (low, high) = self._torque_limits, self._oil_range
-        if least <= pinion_torque <= most and abs(wheel_torque) <= wheel and low <= oil <= high:
-            return  # the usual case, thousands of times a second
+        usual = least <= pinion_torque <= most and abs(wheel_torque) <= wheel and low <= oil <= high
+        if usual and abs(reference) <= MAX_SPEED:
+            return  # thousands of times a second
         check_within("pinion.torque", pinion_torque, least, most, "N.m", cure)
         check_within("wheel.torque", wheel_torque, -wheel, wheel, "N.m", cure)
         self._oil.check_temperature(oil, "oil.temperature")
+        check_within("speed.reference", reference, -MAX_SPEED, MAX_SPEED, "rad/s")
 
-    def _put_torques(self, s: Array, pinion: float, wheel: float) -> None:
+    def _put_inputs(self, s: Array, pinion: float, wheel: float, reference: float) -> None:
         at = self._first_port
-        s[at], s[at + 1] = pinion, wheel
+        s[at], s[at + REFERENCE], s[at + N_KEPT] = pinion, reference, wheel
 
     def _write_outputs(self) -> None:
         self._call(WRITE, self._state)
