@@ -29,7 +29,8 @@ page may change without notice. Whole scripts stand in `examples/`:
 [a film with your own oil](../examples/film_with_own_oil.py),
 [from a helical gear to its transmission error](../examples/helical_transmission_error.py),
 [a film under a measured profile](../examples/rough_own_profile.py),
-[a sliding point contact](../examples/sliding_point_contact.py) and
+[a sliding point contact](../examples/sliding_point_contact.py),
+[the gradient of an axle's whine](../examples/whine_gradient.py) and
 [a speed sweep](../examples/speed_sweep.py).
 
 This page is written by `python -m docs.api` from docstrings; the tests run its examples.

@@ -145,7 +145,32 @@ def optimised(code: str, target: Target) -> tuple[Any, Any]:
     module.triple = target.triple
     module.data_layout = str(machine.target_data)
     tuning = llvm.create_pipeline_tuning_options(speed_level=3)
-    passes = llvm.create_pass_builder(machine, tuning)
+    _run_passes(module, llvm.create_pass_builder(machine, tuning))
+    return module, machine
+
+
+def specialised(code: str, name: str) -> str:
+    """Return the code of one function alone, plain: inlined, without vectors and error paths."""
+    module = llvm.parse_assembly(code.replace("{ noinline }", "{ alwaysinline }"))
+    _hide_all_but(module, name)
+    llvm.initialize_all_targets()
+    machine = llvm.Target.from_triple(LINUX.triple).create_target_machine(
+        cpu=LINUX.cpu, reloc="pic", opt=2
+    )
+    tuning = llvm.create_pipeline_tuning_options(speed_level=2)
+    tuning.loop_vectorization = tuning.slp_vectorization = False
+    _run_passes(module, llvm.create_pass_builder(machine, tuning))
+    return str(module)
+
+
+def linked(code: str, other: str) -> str:
+    """Return the code of two modules as one."""
+    module = llvm.parse_assembly(code)
+    module.link_in(llvm.parse_assembly(other))
+    return str(module)
+
+
+def _run_passes(module: Any, passes: Any) -> None:
     passes.getModulePassManager().run(module, passes)
     # what a kernel returns may be known only now: then its error paths, which need Python, go too
     last = llvm.create_new_module_pass_manager()
@@ -153,7 +178,6 @@ def optimised(code: str, target: Target) -> tuple[Any, Any]:
     last.add_simplify_cfg_pass()
     last.add_global_dead_code_eliminate_pass()
     last.run(module, passes)
-    return module, machine
 
 
 def _module_flags(names: Sequence[str]) -> str:

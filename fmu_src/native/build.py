@@ -16,6 +16,7 @@ from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
 from fmu_src.identity import licence_texts, source_digest, write_archive
 from fmu_src.model_description import model_description
+from fmu_src.native import tangent
 from fmu_src.native.kept import PREBUILT, keep_library, kept_library, one_builds
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
 from fmu_src.native.model_description_3 import ICON, model_description_3, terminals
@@ -132,7 +133,7 @@ def _entry_digest(entry: Callable[..., int]) -> bytes:
     """Return a hash of the entry's name and of its code with all that it imports."""
     codes = (
         code_of(Path(file).read_text("utf-8")).encode()
-        for file in source_files(inspect.getfile(entry))
+        for file in {*source_files(inspect.getfile(entry)), *source_files(tangent.__file__)}
     )
     digest = hashlib.sha256(entry.__qualname__.encode())
     digest.update(b"".join(sorted(hashlib.sha256(code).digest() for code in codes)))
@@ -190,6 +191,20 @@ def _key(model: NativeModel) -> str:
     return hashlib.sha256(repr(text).encode()).hexdigest()[:32]
 
 
+def kernel_code(model: NativeModel) -> str:
+    """Return the intermediate code of a model's kernels, "" of a model in C.
+
+    Raises
+    ------
+    GearLubeError
+        In model exchange, if the kernels call a function whose slope is not known.
+    """
+    if model.entry is None:
+        return ""
+    code = intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
+    return tangent.with_tangent(code, ENTRY) if model.exchange else code
+
+
 def _built(
     model: NativeModel, platforms: Sequence[Platform], report: Callable[[str], None]
 ) -> Iterator[tuple[str, bytes]]:
@@ -200,7 +215,7 @@ def _built(
     name = library_name(model)
     sources = c_sources(model, library_kind(model)) | fmi_headers()
     report(f"{name}: compiling the kernels")
-    code = model.entry and intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY)
+    code = kernel_code(model)
     headers = {file: text for file, text in sources.items() if file.endswith(".h")}
     for platform in platforms:
         report(f"{name}: linking for {platform.name}")

@@ -129,6 +129,7 @@ def model_description_3(
             {
                 **common,
                 "providesDirectionalDerivatives": "true",
+                "providesAdjointDerivatives": "true",
                 "needsCompletedIntegratorStep": "true",
             },
         )

@@ -226,7 +226,7 @@ def test_directional_derivatives_are_those_of_rates_and_outputs(
         wanted = difference(at, 1e-5)
         at(0.0)
         found = turning.along(names, [*fmu.states, *inputs], seed.tolist())
-        # 5e-10 of the largest derivative of a variable; roundings over steps of 2e-6
+        # what the differences leave: roundings over steps of 1e-5, and slopes that change in them
         size = np.abs(wanted) + [rate_size(native_case, name) for name in names]
         assert np.all(np.abs(found - wanted) < 1e-6 * size)
 
@@ -283,5 +283,6 @@ def test_casadi_takes_the_fmu_for_its_equations(fmu: Unpacked, turning: Exchange
     jacobian = right_hand_side.factory("J", ["x", "u"], ["jac:ode:x"])
     of_speed = np.array(jacobian(states[order], given))[:, names.index("pinion.speed")]
     wanted = started.along([f"der({name})" for name in names], ["pinion.speed"], [1.0])
-    assert of_speed == pytest.approx(wanted, rel=1e-5, abs=1e-9 * np.abs(wanted).max())
+    # casadi asks for one direction of the size of the nominal value: rounding is all that differs
+    assert of_speed == pytest.approx(wanted, rel=1e-12)
     started.close()

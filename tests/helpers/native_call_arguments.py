@@ -43,7 +43,7 @@ NOT_THERE = {
     3: "EnterStepMode EnterConfigurationMode ExitConfigurationMode GetFloat32 "
     "SetFloat32 GetInt8 SetInt8 GetUInt8 SetUInt8 GetInt16 SetInt16 GetUInt16 SetUInt16 GetUInt32 "
     "SetUInt32 GetUInt64 SetUInt64 GetString SetString GetBinary SetBinary GetClock SetClock "
-    "GetNumberOfVariableDependencies GetVariableDependencies GetAdjointDerivative "
+    "GetNumberOfVariableDependencies GetVariableDependencies "
     "GetIntervalDecimal GetIntervalFraction GetShiftDecimal GetShiftFraction "
     "SetIntervalDecimal SetIntervalFraction SetShiftDecimal SetShiftFraction "
     "EvaluateDiscreteStates GetOutputDerivatives ActivateModelPartition",

@@ -37,7 +37,7 @@ def native_fmus(case: Case, platform: str = "") -> NativeFmus:
         if not fmus.fmi3.is_file():
             model, options = native_model(case.definition), NativeOptions(platforms=[platform])
             if _TARGETS[platform] == LINUX:  # tests of the entry take the same code
-                patch.setattr(build, "intermediate_code", lambda *_: "made once")
+                patch.setattr(build, "kernel_code", lambda *_: "made once")
                 patch.setattr(build, "object_code", lambda *_: object_code_once(model))
             build_native(model, folder, options)
     return fmus

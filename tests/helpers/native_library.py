@@ -258,6 +258,26 @@ class NativeInstance:
             sum(self.library.counts[name] for name in unknowns),
         )
 
+    def differentiate_back(
+        self, unknowns: Sequence[str], knowns: Sequence[str], seed: Sequence[float]
+    ) -> tuple[int, list[float]]:
+        """Return the derivatives by knowns of the sum of unknowns times their seeds; FMI 3."""
+        references = self.library.references
+        lists = [
+            item
+            for names in (unknowns, knowns)
+            for item in (
+                (c_uint32 * len(names))(*(references[n] for n in names)),
+                c_size_t(len(names)),
+            )
+        ]
+        found = (c_double * len(knowns))()
+        status = self.call(
+            "GetAdjointDerivative", *lists, (c_double * len(seed))(*seed), c_size_t(len(seed)),
+            found, c_size_t(len(knowns)),
+        )  # fmt: skip
+        return status, list(found)
+
     def differentiate_raw(
         self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float], count: int
     ) -> tuple[int, list[float]]:

@@ -13,9 +13,10 @@ import llvmlite.binding as llvm
 import numpy as np
 from elftools.elf.elffile import ELFFile
 
-from fmu_src.native.build import ENTRY, library_kind
-from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel, Operation
-from fmu_src.object_code import LINUX, intermediate_code, object_code
+from fmu_src.native.build import ENTRY, kernel_code, library_kind
+from fmu_src.native.model import NativeModel, Operation
+from fmu_src.native.tangent import TANGENT
+from fmu_src.object_code import LINUX, object_code
 from tests.helpers.session_folder import alone, shared_folder
 
 LIBM = {"exp", "expm1", "log", "pow", "sin", "cos", "tan", "sqrt", "asinh", "tanh", "erfc", "ceil"}
@@ -46,6 +47,8 @@ class NativeRun:
     state: np.ndarray
     work: np.ndarray
     outputs: np.ndarray
+    tangent: Callable[..., int]
+    of_work: np.ndarray  # its changes along the last direction
 
     def __call__(self, operation: Operation, step: float = 0.0) -> int:
         arrays = (self.model.data, self.parameters, self.inputs, self.state, self.work)
@@ -55,6 +58,15 @@ class NativeRun:
     def step(self, h: float) -> int:
         """Take a step of `h` [s] and write the outputs."""
         return self(Operation.STEP, h) or self(Operation.OUTPUTS)
+
+    def changes(self, operation: Operation, of_state: np.ndarray) -> np.ndarray:
+        """Return the changes of the outputs along a direction of the state."""
+        given, changes = self.state.copy(), np.zeros_like(self.outputs)
+        arrays = (self.model.data, self.parameters, self.inputs, given, self.work, self.outputs)
+        more = (of_state.copy(), self.of_work, changes)
+        pointers = [array.ctypes.data for array in (*arrays, *more)]
+        assert self.tangent(int(operation), 0.0, *pointers) == 0
+        return changes
 
     def motion(self) -> dict[str, float]:
         """Write the outputs of the motion alone and return them."""
@@ -69,13 +81,29 @@ class NativeRun:
 def object_code_once(model: NativeModel) -> tuple[bytes, set[str]]:
     """Return an entry as object code with its undefined symbols, made once a run for each kind."""
     if not model.kind:
-        return object_code(intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY), LINUX)  # type: ignore[arg-type]
+        return object_code(kernel_code(model), LINUX)
     path = shared_folder("entries") / library_kind(model)
     with alone(path.with_suffix(".lock")):
         if not path.is_file():
-            made = object_code(intermediate_code(model.entry, ENTRY_SIGNATURE, ENTRY), LINUX)  # type: ignore[arg-type]
+            made = object_code(kernel_code(model), LINUX)
             path.write_bytes(pickle.dumps(made))
     return pickle.loads(path.read_bytes())  # type: ignore[no-any-return]
+
+
+class LoadedCode:
+    """The entry of object code in this process, and in model exchange its tangent."""
+
+    def __init__(self, code: bytes) -> None:
+        target = llvm.Target.from_default_triple().create_target_machine()
+        self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target)
+        self._engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+        self._engine.finalize_object()
+        self.entry, self.tangent = (
+            ctypes.CFUNCTYPE(
+                ctypes.c_int64, ctypes.c_int64, ctypes.c_double, *n * [ctypes.c_void_p]
+            )(self._engine.get_function_address(name))
+            for name, n in ((ENTRY, 6), (TANGENT, 9))
+        )
 
 
 class LoadedModel:
@@ -84,13 +112,8 @@ class LoadedModel:
     def __init__(self, model: NativeModel) -> None:
         self.model = model
         self.code, self.declared = object_code_once(model)
-        target = llvm.Target.from_default_triple().create_target_machine()
-        self._engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target)
-        self._engine.add_object_file(llvm.ObjectFileRef.from_data(self.code))
-        self._engine.finalize_object()
-        pointers = [ctypes.c_void_p] * 6
-        prototype = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_double, *pointers)
-        self._entry = prototype(self._engine.get_function_address(ENTRY))
+        self._loaded = LoadedCode(self.code)
+        self._entry = self._loaded.entry
 
     def takes(self, data: np.ndarray, work_size: int) -> bool:
         """Whether the entry takes constants and a work array of these lengths."""
@@ -120,4 +143,6 @@ class LoadedModel:
             np.zeros(self.model.state_size),
             np.zeros(self.model.work_size),
             np.zeros(len(self.model.definition.output_names)),
+            self._loaded.tangent,
+            np.zeros(self.model.work_size),
         )

@@ -5,9 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Step of a central difference, as a share of the typical size of what is changed. */
-static const double DIFFERENCE = 2e-6;
-
 gl_status gl_enter_events(gl_instance *instance)
 {
     gl_status status = gl_expect_either(instance, GL_EVENTS, GL_CONTINUOUS_TIME);
@@ -217,15 +214,26 @@ static int place_of(const gl_model *model, unsigned reference, double *unit)
     return variable->causality == GL_INPUT ? model->n.inputs_at + variable->place : -1;
 }
 
+static gl_status check_seed(gl_instance *instance, const double *seed, size_t count)
+{
+    gl_status status = GL_OK;
+    for (size_t i = 0; status == GL_OK && i < count; i++) {
+        if (!isfinite(seed[i])) {
+            status = gl_refuse(instance, "The seed must be finite, got %g.", seed[i]);
+        }
+    }
+    return status;
+}
+
 static gl_status check_direction(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
-                                 const unsigned *knowns, size_t n_knowns, const double *seed,
-                                 const double *derivatives)
+                                 const unsigned *knowns, size_t n_knowns, const double *of_unknowns,
+                                 const double *of_knowns)
 {
     double unit;
     const gl_variable *variables = instance->model->variables;
     gl_status status = gl_expect_either(instance, GL_EVENTS, GL_CONTINUOUS_TIME);
-    if (status == GL_OK && ((n_unknowns && (!unknowns || !derivatives)) ||
-                            (n_knowns && (!knowns || !seed)))) {
+    if (status == GL_OK && ((n_unknowns && (!unknowns || !of_unknowns)) ||
+                            (n_knowns && (!knowns || !of_knowns)))) {
         status = gl_refuse(instance, "References or values are missing: a null pointer.");
     }
     for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
@@ -241,26 +249,34 @@ static gl_status check_direction(gl_instance *instance, const unsigned *unknowns
             place_of(instance->model, knowns[i], &unit) < 0) {
             status = gl_refuse(instance, "A known must be a continuous state or an input, got the "
                                          "value reference %u.", knowns[i]);
-        } else if (!isfinite(seed[i])) {
-            status = gl_refuse(instance, "The seed must be finite, got %g.", seed[i]);
         }
     }
     return status;
 }
 
-/* Outputs at the present state, changed by this share of the seed. */
-static gl_status outputs_beside(gl_instance *instance, int operation, const unsigned *knowns,
-                                size_t n_knowns, const double *seed, double whole, double share,
-                                double *outputs)
+/* Outputs at the present state, and their changes along the seed. */
+static gl_status changes_along(gl_instance *instance, int operation, const unsigned *knowns,
+                               size_t n_knowns, const double *seed, double *outputs,
+                               double *changes)
 {
-    double state[GL_MOST_STATE], inputs[GL_MOST_INPUTS] = {0.0}, unit;
+    double state[GL_MOST_STATE], inputs[GL_MOST_INPUTS] = {0.0};
+    double along[GL_MOST_STATE] = {0.0}, unit;
+    double *work = instance->work + instance->model->work, *of_work = work + instance->model->work;
+    int64_t refusal = 0;
+    if (!instance->differentiated) { /* what it keeps in `work` must be of its own last direction */
+        memcpy(work, instance->work, (size_t)instance->model->work * sizeof *work);
+        memset(of_work, 0, (size_t)instance->model->work * sizeof *work);
+        instance->differentiated = 1;
+    }
     memcpy(state, instance->now.state, gl_state_bytes(instance->model));
     for (size_t i = 0; i < n_knowns; i++) {
         int place = place_of(instance->model, knowns[i], &unit);
-        state[place] += share * (seed[i] / whole) / unit;
+        along[place] += seed[i] / unit;
     }
-    int64_t refusal = gearlube_entry(operation, 0.0, instance->model->data, instance->parameters,
-                                     inputs, state, instance->work, outputs);
+#if GL_EXCHANGE /* no other model gets here */
+    refusal = gearlube_tangent(operation, 0.0, instance->model->data, instance->parameters, inputs,
+                               state, work, outputs, along, of_work, changes);
+#endif
     if (refusal != 0) {
         gl_say(instance, GL_DISCARD, "The derivatives cannot be computed: %s.",
                gl_refusal_text(instance->model, refusal));
@@ -272,44 +288,58 @@ gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size
                            const unsigned *knowns, size_t n_knowns, const double *seed,
                            double *derivatives)
 {
-    double above[GL_MOST_OUTPUTS], below[GL_MOST_OUTPUTS], largest = 0.0;
+    double outputs[GL_MOST_OUTPUTS], changes[GL_MOST_OUTPUTS];
     const gl_variable *variables = instance->model->variables;
     int needs = GL_OF_RATES;
-    gl_status status = check_direction(instance, unknowns, n_unknowns, knowns, n_knowns, seed,
-                                       derivatives);
+    gl_status status = check_direction(instance, unknowns, n_unknowns, knowns, n_knowns, derivatives,
+                                       seed);
+    if (status == GL_OK) {
+        status = check_seed(instance, seed, n_knowns);
+    }
     if (status == GL_OK) {
         status = gl_take_inputs(instance);
-    }
-    for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
-        largest = fmax(largest, fabs(seed[i]) / variables[knowns[i]].nominal);
     }
     for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
         needs |= variables[unknowns[i]].needs;
     }
-    int operation = needs == GL_OF_RATES ? GL_DERIVATIVES : GL_WRITE_OUTPUTS;
-    double whole = largest > 0.0 ? largest : 1.0;
     if (status == GL_OK) {
-        status = outputs_beside(instance, operation, knowns, n_knowns, seed, whole, DIFFERENCE,
-                                above);
+        int operation = needs == GL_OF_RATES ? GL_DERIVATIVES : GL_WRITE_OUTPUTS;
+        status = changes_along(instance, operation, knowns, n_knowns, seed, outputs, changes);
     }
-    if (status == GL_OK) {
-        status = outputs_beside(instance, operation, knowns, n_knowns, seed, whole, -DIFFERENCE,
-                                below);
-    }
-    for (int writes = 0; status == GL_OK && writes < 2; writes++) { /* after all are known good */
-        for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
-            int place = variables[unknowns[i]].place;
-            double slope = (above[place] - below[place]) / (2.0 * DIFFERENCE) * whole;
-            if (writes) {
-                derivatives[i] = slope;
-            } else if (!isfinite(slope)) {
-                gl_say(instance, GL_DISCARD,
-                       "The derivative of %s is not finite, with a seed of %g times the nominal "
-                       "value. Use a smaller seed, or a state nearer to a run.",
-                       variables[unknowns[i]].name, largest);
-                status = GL_DISCARD;
-            }
+    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
+        int place = variables[unknowns[i]].place;
+        if (!isfinite(outputs[place]) || !isfinite(changes[place])) {
+            gl_say(instance, GL_DISCARD, "The derivative of %s is not finite. Use a smaller seed, or "
+                   "a state nearer to a run.", variables[unknowns[i]].name);
+            status = GL_DISCARD;
         }
+    }
+    for (size_t i = 0; status == GL_OK && i < n_unknowns; i++) {
+        derivatives[i] = changes[variables[unknowns[i]].place];
+    }
+    return status;
+}
+
+gl_status gl_differentiate_back(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
+                                const unsigned *knowns, size_t n_knowns, const double *seed,
+                                double *derivatives)
+{
+    double column[GL_MOST_VARIABLES], found[GL_MOST_VARIABLES];
+    const double one = 1.0;
+    gl_status status = check_direction(instance, unknowns, n_unknowns, knowns, n_knowns, seed,
+                                       derivatives);
+    if (status == GL_OK) {
+        status = check_seed(instance, seed, n_unknowns);
+    }
+    for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
+        status = gl_differentiate(instance, unknowns, n_unknowns, &knowns[i], 1, &one, column);
+        found[i] = 0.0;
+        for (size_t j = 0; status == GL_OK && j < n_unknowns; j++) {
+            found[i] += seed[j] * column[j];
+        }
+    }
+    for (size_t i = 0; status == GL_OK && i < n_knowns; i++) {
+        derivatives[i] = found[i];
     }
     return status;
 }

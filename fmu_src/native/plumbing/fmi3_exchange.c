@@ -136,24 +136,46 @@ static int elements(const gl_model *model, const fmi3ValueReference refs[], size
     return k == count;
 }
 
+typedef gl_status (*gl_derivative)(gl_instance *, const unsigned *, size_t, const unsigned *, size_t,
+                                   const double *, double *);
+
+/* Derivatives of all elements, along a direction or back; so many values go with each list. */
+static fmi3Status differentiate(gl_instance *instance, gl_derivative derivative,
+                                const fmi3ValueReference unknowns[], size_t n_unknowns, size_t rows,
+                                const fmi3ValueReference knowns[], size_t n_knowns, size_t columns,
+                                const fmi3Float64 seed[], fmi3Float64 sensitivity[])
+{
+    unsigned of_unknowns[GL_MOST_VARIABLES], of_knowns[GL_MOST_VARIABLES];
+    if (!gl_is_instance(instance)) {
+        return fmi3Error;
+    }
+    if ((n_unknowns && !unknowns) || (n_knowns && !knowns)) {
+        return no_pointer(instance);
+    }
+    if (!elements(instance->model, unknowns, n_unknowns, rows, of_unknowns) ||
+        !elements(instance->model, knowns, n_knowns, columns, of_knowns)) {
+        return answer(GL_CALL(instance,
+                              gl_refuse(instance, "Value references of variables are expected, each "
+                                                  "once, and as many values as they have elements.")));
+    }
+    return answer(GL_CALL(instance, derivative(instance, of_unknowns, rows, of_knowns, columns, seed,
+                                               sensitivity)));
+}
+
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference unknowns[],
                                         size_t n_unknowns, const fmi3ValueReference knowns[],
                                         size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
                                         fmi3Float64 sensitivity[], size_t n_sensitivity)
 {
-    unsigned of_unknowns[GL_MOST_VARIABLES], of_knowns[GL_MOST_VARIABLES];
-    if (!gl_is_instance(c)) {
-        return fmi3Error;
-    }
-    if ((n_unknowns && !unknowns) || (n_knowns && !knowns)) {
-        return no_pointer(c);
-    }
-    const gl_model *model = ((gl_instance *)c)->model;
-    if (!elements(model, unknowns, n_unknowns, n_sensitivity, of_unknowns) ||
-        !elements(model, knowns, n_knowns, n_seed, of_knowns)) {
-        return answer(GL_CALL(c, gl_refuse(c, "Value references of variables are expected, each "
-                                              "once, and as many values as they have elements.")));
-    }
-    return answer(GL_CALL(c, gl_differentiate(c, of_unknowns, n_sensitivity, of_knowns, n_seed, seed,
-                                              sensitivity)));
+    return differentiate(c, gl_differentiate, unknowns, n_unknowns, n_sensitivity, knowns, n_knowns,
+                         n_seed, seed, sensitivity);
+}
+
+fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, const fmi3ValueReference unknowns[],
+                                    size_t n_unknowns, const fmi3ValueReference knowns[],
+                                    size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
+                                    fmi3Float64 sensitivity[], size_t n_sensitivity)
+{
+    return differentiate(c, gl_differentiate_back, unknowns, n_unknowns, n_seed, knowns, n_knowns,
+                         n_sensitivity, seed, sensitivity);
 }

@@ -34,7 +34,8 @@ gl_instance *gl_make(gl_model *model, const char *name, gl_listener listener, vo
 {
     const char *given = name && *name ? name : GL_MODEL_NAME;
     size_t length = strlen(given) + 1;
-    gl_instance *instance = calloc(1, sizeof *instance + (size_t)model->work * sizeof(double));
+    size_t work = (size_t)model->work * sizeof(double) * (exchange ? 3 : 1);
+    gl_instance *instance = calloc(1, sizeof *instance + work);
     char *copy = malloc(length);
     if (!instance || !copy) {
         free(instance);
@@ -160,6 +161,7 @@ gl_status gl_start(gl_instance *instance)
     memset(state, 0, gl_state_bytes(instance->model));
     gl_gather_parameters(instance->model, instance->now.values, instance->parameters);
     gl_gather_inputs(instance->model, instance->now.values, inputs);
+    instance->differentiated = 0;
     int64_t status = gearlube_entry(GL_RESUME, 0.0, instance->model->data, instance->parameters,
                                     inputs, state, instance->work, instance->outputs);
     if (status == 0) {

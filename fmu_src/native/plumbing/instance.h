@@ -72,7 +72,8 @@ struct gl_instance {
     void *host;       /* what the listener needs of the host */
     uintptr_t logger; /* function of the host */
     char *name;
-    double work[]; /* of the model */
+    int differentiated; /* since `work` was made of the parameters */
+    double work[]; /* of the model; in model exchange, that of its tangent and its changes too */
 };
 
 /* Reads the model from the folder of the FMU's resources, given as a path or as a URI; NULL, and why
@@ -129,10 +130,14 @@ gl_status gl_get_states(gl_instance *instance, double *values, size_t count);
 gl_status gl_get_nominals(gl_instance *instance, double *values, size_t count);
 gl_status gl_get_rates(gl_instance *instance, double *values, size_t count);
 gl_status gl_get_indicators(gl_instance *instance, double *values, size_t count);
-/* Derivatives of computed Reals along a direction of states and inputs, by a central difference. */
+/* Derivatives of computed Reals along a direction of states and inputs. */
 gl_status gl_differentiate(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
                            const unsigned *knowns, size_t n_knowns, const double *seed,
                            double *derivatives);
+/* Derivatives by states and inputs of the sum of computed Reals, each times its seed. */
+gl_status gl_differentiate_back(gl_instance *instance, const unsigned *unknowns, size_t n_unknowns,
+                                const unsigned *knowns, size_t n_knowns, const double *seed,
+                                double *derivatives);
 
 /* States of the host: `place` points at null or at a state that is written over. */
 gl_status gl_save(gl_instance *instance, void **place);

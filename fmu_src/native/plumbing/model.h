@@ -108,4 +108,13 @@ int64_t gearlube_entry(int64_t operation, double step, const double *data,
                        const double *parameters, const double *inputs, double *state, double *work,
                        double *outputs);
 
+#if GL_EXCHANGE
+/* The same of GL_WRITE_OUTPUTS and GL_DERIVATIVES, with the changes of the outputs along those of
+   the state. The changes of `work` are scratch, zeros before the first call. */
+int64_t gearlube_tangent(int64_t operation, double step, const double *data,
+                         const double *parameters, const double *inputs, double *state,
+                         double *work, double *outputs, double *of_state, double *of_work,
+                         double *of_outputs);
+#endif
+
 #endif

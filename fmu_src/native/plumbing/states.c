@@ -325,6 +325,7 @@ gl_status gl_restore(gl_instance *instance, const void *state)
         gl_gather_parameters(instance->model, snapshot->values, parameters);
         gl_gather_inputs(instance->model, snapshot->values, inputs);
         memcpy(of_model, snapshot->state, gl_state_bytes(instance->model));
+        instance->differentiated = 0;
         int64_t status = gearlube_entry(GL_RESUME, 0.0, instance->model->data, parameters, inputs,
                                         of_model, instance->work, instance->outputs);
         if (status != 0) {
