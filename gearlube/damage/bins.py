@@ -18,7 +18,13 @@ from gearlube_core.rating.spectrum import DutyBins, duty_bins
 from gearlube_core.units import ZERO_CELSIUS, celsius_to_kelvin, rpm_to_rads
 
 WIDTHS = 20.0, rpm_to_rads(500.0), 20.0  # of a bin [N.m], [rad/s], [K]
-_COLUMNS = ("torque_n_m", "speed_rpm", "temperature_degc", "hours")
+# limits, unit and cure
+_COLUMNS: dict[str, tuple[float, float, str, str]] = {
+    "torque_n_m": (-1e7, 1e7, "N.m", "Below 0 it loads the coast flanks."),
+    "speed_rpm": (0.01, 47000.0, "rpm", "The sign of the torque says which flank is loaded."),
+    "temperature_degc": (-100.0, 300.0, "degC", "It is that of the oil; 363 K are 90 degC."),
+    "hours": (1e-9, 1e7, "h", "They are of the whole life; 3600 s are 1 h. Leave out empty bins."),
+}
 _HEAD = 2000  # characters in which the names of the columns stand
 _LEAST_SPEED = 1.0  # rad/s; below, a step counts as standstill
 
@@ -66,11 +72,12 @@ def cycle_bins(
 
 
 def is_bins(name: str) -> bool:
-    """Return whether a file is a table of bins, with hours, and no drive cycle."""
+    """Return whether a file is a table of bins, with hours or torques, and no drive cycle."""
     path = Path(name)
-    return path.suffix.lower() in TABLES and path.is_file() and "hours" in path.read_text(
-        encoding="utf-8", errors="replace"
-    )[:_HEAD].lower()  # fmt: skip
+    if path.suffix.lower() not in TABLES or not path.is_file():
+        return False
+    head = path.read_text(encoding="utf-8", errors="replace")[:_HEAD].lower()
+    return "speed_kmh" not in head and ("hours" in head or "torque_n_m" in head)
 
 
 def read_bins(path: Path | str) -> DutyBins:
@@ -103,13 +110,8 @@ def read_bins(path: Path | str) -> DutyBins:
             "whole life."
         )
     torque, speed, temperature, hours = (
-        np.asarray(table.column(name), dtype=float) for name in _COLUMNS
+        table.column(name, *limits) for name, limits in _COLUMNS.items()
     )
-    if not ((speed > 0.0).all() and (hours >= 0.0).all()):
-        raise ParameterError(
-            f"{path} must have speed_rpm above 0 and hours not below 0, got down to "
-            f"{speed.min():g} rpm and {hours.min():g} h."
-        )
     return DutyBins(torque, rpm_to_rads(1.0) * speed, celsius_to_kelvin(0.0) + temperature,
                     3600.0 * hours)  # fmt: skip
 
@@ -127,5 +129,5 @@ def bin_words(bins: DutyBins, place: int) -> str:
     '90 N·m, 955 rpm, 80 °C'
     """
     torque, speed, temperature, _ = (float(one[place]) for one in bins)
-    rpm = speed * 30.0 / math.pi
-    return f"{torque:.3g} N·m, {rpm:.0f} rpm, {temperature - ZERO_CELSIUS:.0f} °C"
+    rpm, load = speed * 30.0 / math.pi, f"{torque:{'.3g' if abs(torque) < 999.5 else '.0f'}}"
+    return f"{load} N·m, {rpm:.0f} rpm, {temperature - ZERO_CELSIUS:.0f} °C"

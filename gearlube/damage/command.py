@@ -178,6 +178,7 @@ def damage(
     from gearlube.damage.run import run_damage
     from gearlube.damage.settings import (
         DamageSettings,
+        check_needed,
         gear_file_of,
         rated_bearing,
         rated_gears,
@@ -186,7 +187,6 @@ def damage(
     )
     from gearlube.damage.summary import SUMMARY_HEAD
     from gearlube.damage.teeth import BEVEL_FACE
-    from gearlube.damage.wear_steps import POSITIONS
     from gearlube.report.inputs import file_inputs, noted_inputs
     from gearlube.report.parts import Input
     from gearlube.studies.drive_cycle.settings import DriveCycleSettings
@@ -204,7 +204,7 @@ def damage(
     fatigue = {
         "--torsion-limit-mpa": torsion_limit_mpa, "--bending-fatigue-mpa": bending_fatigue_mpa,
     }  # fmt: skip
-    stopped = f"Stopped. Steps of wear go on from {out / POSITIONS} with the same command."
+    stopped = f"Stopped. {out} keeps what is finished: the same command goes on."
     with study_run("damage", out, overwrite=overwrite, stopped=stopped) as run:
         case = together(hardness, "720 and 342 HV with 0.5 mm are an example.")
         steel = together(fatigue, "260 and 398 MPa are those of quenched 42CrMo4.")
@@ -221,6 +221,12 @@ def damage(
             "--load-stage-torque-nm": load_stage_torque_nm, "--edition": edition,
         }  # fmt: skip
         check_options(pair, of_axle, of_pair)
+        rated = pinion_bearings_kn or gear_bearings_kn
+        check_needed(
+            ("--wear-of-all-load", wear_of_all_load, "--wear-coefficient", wear_coefficient),
+            ("--load-stage-torque-nm", load_stage_torque_nm, "--load-stage", load_stage),
+            ("--cleanliness", cleanliness, "--pinion-bearings-kn or --gear-bearings-kn", rated),
+        )
         if pair:
             file = HelicalGearFile.given(gear_set)
             material, inputs_of = rated_gears(*limits), file_inputs(file)
@@ -258,7 +264,9 @@ def damage(
                     contact, edition=edition or "2006", load_stage=load_stage,
                     test_torque=load_stage_torque_nm, store=out / "contact", progress=progress,
                 )  # fmt: skip
-        face = face_factor or (BEVEL_FACE if teeth is None else teeth.face(bins))
+        face = face_factor
+        if face is None:
+            face = BEVEL_FACE if teeth is None else teeth.face(bins)
         settings = DamageSettings(
             car=car,
             pair=teeth,

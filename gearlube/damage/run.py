@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import shutil
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -71,7 +70,8 @@ def run_damage(
         Axle or pair, bins, materials, bearings.
     folder
         For damage.nc, damage.csv, summary.csv and figures; None: nothing is written. Finished bins
-        are kept in its folder `bins` until all are, so that the same call goes on after a stop.
+        are kept in its folder `bins` until all are done, so that the same call goes on after a
+        stop.
     progress
         Called with the share that is done and a sentence.
 
@@ -105,9 +105,9 @@ def run_damage(
     count, part = bins.torque.size, 0.1 if settings.wear_steps else 0.9
     cycles = np.stack([bins.revolutions, bins.revolutions / ratio], axis=1)
     solved, store = [], ResultStore(folder and folder / "bins", ARRAYS)
-    for i in range(count):
+    keys = [settings.bin_key(i) for i in range(count)]
+    for i, key in enumerate(keys):
         progress(part * i / count, f"bin {i + 1} of {count}")
-        key = settings.bin_key(i)
         found = store.read(key)
         if found is None:
             new = _solved(settings, teeth, rate, i, cycles[i])
@@ -204,7 +204,7 @@ def run_damage(
     dataset.attrs["summary"] = json.dumps(summary_rows(dataset, settings, beside.rows))
     if folder is not None:
         _write(dataset, folder)
-        shutil.rmtree(folder / "bins")
+        store.drop(keys)
     progress(1.0, "damage")
     return dataset
 

@@ -17,13 +17,13 @@ from gearlube.damage.teeth import Teeth, axle_teeth
 from gearlube_core import __version__
 from gearlube_core.bearings.bearing_type import Bearing
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
-from gearlube_core.checks import check_within
+from gearlube_core.checks import check_option, check_positive, check_within
 from gearlube_core.contact.dang_van import FatigueLimits
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_geometry.blank.hypoid_blank import HypoidBlank
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.number import Checked, Number
-from gearlube_core.rating.bearing_life import RatedBearing
+from gearlube_core.rating.bearing_life import CLEANLINESS, RatedBearing
 from gearlube_core.rating.gears import Gears, LoadFactors, RatedGear
 from gearlube_core.rating.spectrum import DutyBins, Rate
 from gearlube_core.rating.subsurface import CaseHardening, hardness_profile
@@ -129,6 +129,9 @@ class DamageSettings(Checked):
             check_within("torque of a bin", torque, *words)
         for temperature in self.bins.temperature:
             self.teeth.oil.check_temperature(float(temperature), "temperature of a bin")
+        check_positive("time of all bins", self.bins.time.sum(), "s", "Leave out empty bins.")
+        if self.cleanliness is not None:
+            check_option("cleanliness", self.cleanliness, CLEANLINESS)
         if self.test_torque is not None:
             self.teeth.oil.check_temperature(self.test_bulk, "test_bulk")
         if self.wear_steps:
@@ -206,6 +209,16 @@ def together(numbers: Mapping[str, float | None], cure: str) -> list[float]:
     return given
 
 
+def check_needed(*options: tuple[str, object, str, object]) -> None:
+    """Raise ParameterError where an option is given without another one that it needs."""
+    for name, value, needed, there in options:
+        if value and not there:
+            raise ParameterError(
+                f"{name} must have {needed} with it, got none: alone it changes nothing. Give "
+                f"{needed}, or leave out {name}."
+            )
+
+
 def rated_pair(
     axle: str, gears: str, treatment: str, contact_mpa: float | None, bending_mpa: float | None
 ) -> tuple[Gears | None, HypoidBlank | None]:
@@ -243,8 +256,8 @@ def gear_file_of(axle: str, gears: str = "") -> HypoidGearFile:
     gears = gears or str(named.mesh_table)
     if not gears.endswith(".toml") and gears not in HypoidGearFile.shipped():
         raise ParameterError(
-            "The standard, and steps of wear, must have the gear file of the axle's gears, got the "
-            f"mesh table {gears!r} alone. Name the gear file with --gears."
+            "The standard, and steps of wear, must have the gear file of the axle's hypoid gears, "
+            f"got {gears!r}, which is none. Name a gear file (TOML) with --gears."
         )
     return HypoidGearFile.given(gears)
 

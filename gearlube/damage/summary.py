@@ -37,10 +37,11 @@ def summary_rows(
 ) -> list[Row]:
     """Return the rows of the summary, in the order of `SUMMARY_HEAD`; `more` are by standards."""
     rows: list[Row] = []
-    drive = dataset["torque"].values > 0.0
+    torque = dataset["torque"].values
+    sides = {"pitting, drive": torque > 0.0, "pitting, coast": torque < 0.0}
     by = f"{dataset.attrs['standard']}; Miner's sum by ISO 6336-6"
     for mode, pair in json.loads(dataset.attrs["torque_factors"]).items():
-        side = {"pitting, drive": drive, "pitting, coast": ~drive}.get(mode, drive | ~drive)
+        side = sides.get(mode, np.full(torque.shape, True))
         if side.any():
             sums = dataset[_MODES[mode]].values[side].sum(axis=0)
             for role, total, factor in zip(("pinion", "gear"), sums, pair, strict=True):
@@ -75,7 +76,7 @@ def summary_rows(
         by = f"Archard, k = {settings.wear_coefficient:g} 1/Pa, {whose}, the new flank's rate"
         if verdict == TOO_DEEP:
             verdict = "see the steps" if "worn_life" in dataset else TOO_DEEP
-            by = f"{by}; --wear-steps solves the contact again"
+            by += "" if settings.car is None else "; --wear-steps solves the contact again"
         limit = f"{_WEAR_LIMIT:g} µm"
         rows.append((f"wear, {role}", f"{number_text(depth)} µm", limit, "", "", verdict, by))
     for j, role in enumerate(("pinion", "gear") if "worn_life" in dataset else ()):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlube_core.arrays import Array
-from gearlube_core.checks import check_positive, check_within
+from gearlube_core.checks import check_within
 from gearlube_core.contact.half_space_stress import greatest_shear, hydrostatic_stress
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.kernels.jit import kernel
@@ -134,7 +134,7 @@ class FatigueLimits:
     name: str = "steel"
 
     def __post_init__(self) -> None:
-        check_positive("bending", self.bending, "Pa")
+        check_within("bending", self.bending, 1e7, 3e9, "Pa", "398 MPa is 3.98e8 Pa.")
         check_within(
             "torsion over bending", self.torsion / self.bending, 0.5, 0.8, "", "Give both in Pa."
         )

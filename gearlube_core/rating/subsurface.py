@@ -56,7 +56,7 @@ def hardness_profile(depth: Array, *, surface: float, core: float, case_depth: f
     >>> round(float(at[0]), 1)
     358.0
     """
-    check_positive("case_depth", case_depth, "m", "0.5 mm is 5e-4 m.")
+    check_within("case_depth", case_depth, 1e-5, 0.02, "m", "0.5 mm is 5e-4 m.")
     check_within("core", core, 100.0, 800.0, "HV", "300 to 450 is usual.")
     check_within("surface", surface, core, 1200.0, "HV", "650 to 800 is usual.")
     x = np.asarray(depth, dtype=float) / case_depth

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -124,6 +124,14 @@ class ResultStore(Generic[Result]):
         if self.folder is not None:
             self.folder.mkdir(parents=True, exist_ok=True)
             self.format.write(self._path(self.folder, key), key, result)
+
+    def drop(self, keys: Iterable[str]) -> None:
+        """Remove results, and the folder if nothing else is in it."""
+        if self.folder is not None and self.folder.is_dir():
+            for key in keys:
+                self._path(self.folder, key).unlink(missing_ok=True)
+            if not any(self.folder.iterdir()):
+                self.folder.rmdir()
 
     def _path(self, folder: Path, key: str) -> Path:
         return folder / f"{key}{self.format.suffix}"

@@ -124,6 +124,20 @@ def test_a_pair_and_an_axle_refuse_what_is_not_theirs(bins, tmp_path, caplog):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--wear-of-all-load",), "must have --wear-coefficient with it"),
+        (("--cleanliness", "bath -/17/14"), "must have --pinion-bearings-kn or"),
+        ((*LIMITS, "--face-factor", 0), "face must be within 1 to 10, got 0"),
+    ],
+)
+def test_no_option_is_left_out_in_silence(arguments, words, bins, tmp_path, caplog):
+    done = run("--cycle", bins, *arguments, "--out", tmp_path / "out")
+    assert done.exit_code == BAD_ARGUMENT
+    assert words in caplog.text
+
+
 def test_steps_of_wear_need_a_coefficient(bins, tmp_path, caplog):
     done = run("--cycle", bins, "--wear-steps", 3, "--out", tmp_path / "out")
     assert done.exit_code == BAD_ARGUMENT

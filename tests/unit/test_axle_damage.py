@@ -7,13 +7,16 @@ import pytest
 import xarray as xr
 
 from drivetrain.axle_file.read_axle import read_axle
-from gearlube.damage.bins import is_bins, joined, read_bins
+from gearlube.damage.bins import bin_words, is_bins, joined, read_bins
+from gearlube.damage.figures import tooth_figure
 from gearlube.damage.report import damage_report, findings
 from gearlube.damage.run import run_damage
 from gearlube.damage.settings import DamageSettings, rated_bearing, rated_pair
 from gearlube_core.bearings.tapered_roller_bearing import TaperedRollerBearing
+from gearlube_core.contact.dang_van import FatigueLimits
 from gearlube_core.errors import ParameterError
 from gearlube_core.rating.spectrum import DutyBins
+from gearlube_core.rating.subsurface import CaseHardening
 
 K_WEAR = 5e-18  # 1/Pa
 GEARS, BLANK = rated_pair("mohammadpour_2015", "", "case_hardened", 1500.0, 430.0)
@@ -186,9 +189,27 @@ def test_bins_are_read_and_refused(tmp_path):
     path.write_text("torque_n_m,speed_rpm,hours\n250,600,20\n", encoding="utf-8")
     with pytest.raises(ParameterError, match="missing: temperature_degc"):
         read_bins(path)
-    path.write_text("torque_n_m,speed_rpm,temperature_degc,hours\n1,-5,90,20\n", encoding="utf-8")
-    with pytest.raises(ParameterError, match="above 0"):
+    head = "torque_n_m,speed_rpm,temperature_degc,"
+    for row, words in (
+        ("1,-5,90,20", "speed_rpm must be a finite number within 0.01"),
+        ("1,5,363,20", "363 K are 90 degC"),
+        ("1,5,90,0", "line 2: hours must be a finite number within 1e-09 to 1e.07 h, got '0'"),
+        ("1,5,90,nan", "Fill the gap"),
+    ):
+        path.write_text(f"{head}hours\n{row}\n", encoding="utf-8")
+        with pytest.raises(ParameterError, match=words):
+            read_bins(path)
+    path.write_text(f"{head}seconds\n1,5,90,20\n", encoding="utf-8")
+    assert is_bins(str(path))  # no drive cycle: the message names the hours
+    with pytest.raises(ParameterError, match="missing: hours"):
         read_bins(path)
+    path.write_text("time_s,speed_kmh\n0,5\n", encoding="utf-8")
+    assert not is_bins(str(path))
+
+
+def test_bins_have_words_without_powers_of_ten():
+    assert bin_words(bins_of((12345.0, 100.0, 353.15, 1.0)), 0) == "12345 N·m, 955 rpm, 80 °C"
+    assert bin_words(bins_of((-999.7, 100.0, 353.15, 1.0)), 0).startswith("-1000 N·m")
 
 
 def test_bad_settings_are_refused(car):
@@ -196,6 +217,14 @@ def test_bad_settings_are_refused(car):
         DamageSettings(car=car, bins=bins_of((5000.0, 60.0, 360.0, 1.0)))
     with pytest.raises(ParameterError, match="temperature of a bin"):
         DamageSettings(car=car, bins=bins_of((50.0, 60.0, 900.0, 1.0)))
+    with pytest.raises(ParameterError, match="time of all bins must be above 0 s, got 0"):
+        DamageSettings(car=car, bins=bins_of((50.0, 60.0, 360.0, 0.0)))
+    with pytest.raises(ParameterError, match="cleanliness must be one of"):
+        DamageSettings(car=car, bins=MILD, cleanliness="clean")
+    with pytest.raises(ParameterError, match=r"case_depth must be within 1e-05 to 0\.02 m"):
+        DamageSettings(car=car, bins=MILD, case=CaseHardening(720.0, 342.0, 0.8))  # mm
+    with pytest.raises(ParameterError, match=r"bending must be within 1e\+07 to 3e\+09 Pa"):
+        FatigueLimits(bending=398.0, torsion=260.0)  # MPa
     with pytest.raises(ParameterError, match="1500 and 430 MPa are an example"):
         rated_pair("mohammadpour_2015", "", "case_hardened", 1500.0, None)
     with pytest.raises(ParameterError, match="C and C_0"):
@@ -215,7 +244,15 @@ def test_a_run_that_was_stopped_goes_on_with_the_bins_that_it_lacks(car, tmp_pat
     monkeypatch.setitem(vars(settings), "teeth", settings.teeth._replace(states=stopped))
     with pytest.raises(KeyboardInterrupt):
         run_damage(settings, folder=tmp_path)
+    (tmp_path / "bins" / "my_table.csv").touch()
     found = run_damage(settings, folder=tmp_path)
     assert [at[0] for at in asked] == [550.0, 450.0, 450.0]
     xr.testing.assert_identical(found, run_damage(DamageSettings(car=car, bins=HARD)))
-    assert not (tmp_path / "bins").exists()
+    # what somebody else keeps there is left alone
+    assert [one.name for one in (tmp_path / "bins").iterdir()] == ["my_table.csv"]
+
+
+def test_every_frame_of_the_maps_has_a_map(both):
+    """An odd number of maps leaves no empty frame."""
+    figure = tooth_figure(both.sel(side="drive").drop_vars("heat_map"), "drive")
+    assert all(ax.collections for ax in figure.axes)
