@@ -76,6 +76,8 @@ def tooth_figure(dataset: xr.Dataset, side: str) -> Any:
             figure.colorbar(image, ax=ax, label=unit, shrink=0.85)
         for ax in axes[:-1].ravel():
             ax.set_xlabel("")
+        for ax in axes.ravel()[len(drawn) :]:
+            ax.remove()
         figure.suptitle(
             f"{side.capitalize()} side over the whole life. {words_of.where}", fontsize=10.5
         )
