@@ -7,7 +7,7 @@ directional derivatives, which are exact. Differences of two runs depend on thei
 from __future__ import annotations
 
 import tempfile
-from typing import Any, NamedTuple
+from typing import Any
 
 import casadi
 import numpy as np
@@ -20,14 +20,6 @@ INPUTS = {"pinion.torque": 90.0, "wheel.torque": 160.0, "oil.temperature": 333.1
 VIBRATION = "pinion.velocity.x"  # its rate is the acceleration of the pinion across its axis
 STEP, STEPS = 1e-5, 3000  # s
 SHARE = 1e-6  # of an input, in differences
-
-
-class WhineGradient(NamedTuple):
-    """Acceleration of the pinion over the run-up, root mean square [m/s2], and its gradients."""
-
-    level: float
-    exact: np.ndarray  # [m/s2 per unit of each input]
-    by_differences: np.ndarray
 
 
 def states_at_start(folder: str, names: list[str]) -> list[float]:
@@ -45,9 +37,7 @@ def states_at_start(folder: str, names: list[str]) -> list[float]:
     fmu.enterInitializationMode()
     fmu.setReal([references[name] for name in INPUTS], list(INPUTS.values()))
     fmu.exitInitializationMode()
-    states: list[float] = fmu.getReal([references[name] for name in names])
-    fmu.freeInstance()
-    return states
+    return fmu.getReal([references[name] for name in names])  # type: ignore[no-any-return]
 
 
 def run_up(folder: str) -> Any:
@@ -55,32 +45,34 @@ def run_up(folder: str) -> Any:
     axle = casadi.DaeBuilder("axle", folder, {})
     names = axle.x()
     rates = axle.create("rates", ["x", "u"], ["ode"])
-    x, u = casadi.MX.sym("x", len(names)), casadi.MX.sym("u", len(INPUTS))
+    x, u = casadi.MX.sym("x", len(names)), casadi.MX.sym("u", len(axle.u()))
     k1 = rates(x, u)
     k2 = rates(x + 0.5 * STEP * k1, u)
     k3 = rates(x + 0.5 * STEP * k2, u)
     k4 = rates(x + STEP * k3, u)
     after = x + STEP / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
     step = casadi.Function("step", [x, u], [after, k1[names.index(VIBRATION)] ** 2])
-    given = casadi.vertcat(*(u[list(INPUTS).index(name)] for name in axle.u()))
+    changed = casadi.MX.sym("changed", len(INPUTS))
+    own = {name: changed[i] for i, name in enumerate(INPUTS)}
+    given = casadi.vertcat(*(own.get(name, axle.start(name)[0]) for name in axle.u()))
     start = states_at_start(folder, names)
     _, squares = step.mapaccum("run", STEPS)(start, casadi.repmat(given, 1, STEPS))
-    return casadi.Function("whine", [u], [casadi.sqrt(casadi.sum2(squares) / STEPS)])
+    return casadi.Function("whine", [changed], [casadi.sqrt(casadi.sum2(squares) / STEPS)])
 
 
-def main() -> WhineGradient:
-    """Return the whine of the run-up with its gradient by INPUTS, exact and by differences."""
+def main() -> tuple[float, np.ndarray, np.ndarray]:
+    """Return the acceleration, root mean square [m/s2], and its gradient, exact and otherwise."""
     whine = run_up(str(extract(str(cached_hypoid_axle()), tempfile.mkdtemp())))
     u = np.array(list(INPUTS.values()))
     level = float(whine(u))
     exact = np.array(whine.forward(len(u))(u, level, np.eye(len(u)))).ravel()
     steps = np.diag(SHARE * u)
     differences = [float(whine(u + h) - whine(u - h)) / (2.0 * h.max()) for h in steps]
-    return WhineGradient(level, exact, np.array(differences))
+    return level, exact, np.array(differences)
 
 
 if __name__ == "__main__":
-    found = main()
-    print(f"acceleration {found.level:.3f} m/s2")
-    for name, exact, other in zip(INPUTS, found.exact, found.by_differences, strict=True):
+    level, gradient, differences = main()
+    print(f"acceleration {level:.3f} m/s2")
+    for name, exact, other in zip(INPUTS, gradient, differences, strict=True):
         print(f"by {name}: {exact:+.8f}, by differences {other:+.8f}")
