@@ -226,6 +226,7 @@ def damage(
             ("--wear-of-all-load", wear_of_all_load, "--wear-coefficient", wear_coefficient),
             ("--load-stage-torque-nm", load_stage_torque_nm, "--load-stage", load_stage),
             ("--cleanliness", cleanliness, "--pinion-bearings-kn or --gear-bearings-kn", rated),
+            ("--raceway-roughness-um", raceway_roughness_um, "ratings of bearings", rated),
         )
         if pair:
             file = HelicalGearFile.given(gear_set)

@@ -271,6 +271,8 @@ def rated_bearing(size: Bearing, ratings_kn: Sequence[float] | None) -> RatedBea
             "Ratings of bearings must be C, or C and C_0, of tapered rollers, got "
             f"{len(ratings_kn)} of {size.name}. `bearing_life` takes other bearings."
         )
+    for rating in ratings_kn:
+        check_within("rating of a bearing", rating, 1.0, 1e4, "kN", "88 kN is 88, not 88000.")
     return RatedBearing(
         kind="radial_roller",
         dynamic_rating=1e3 * ratings_kn[0],

@@ -129,6 +129,7 @@ def test_a_pair_and_an_axle_refuse_what_is_not_theirs(bins, tmp_path, caplog):
     [
         (("--wear-of-all-load",), "must have --wear-coefficient with it"),
         (("--cleanliness", "bath -/17/14"), "must have --pinion-bearings-kn or"),
+        (("--raceway-roughness-um", 0.2), "must have ratings of bearings"),
         ((*LIMITS, "--face-factor", 0), "face must be within 1 to 10, got 0"),
     ],
 )

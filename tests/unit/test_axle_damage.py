@@ -256,3 +256,8 @@ def test_every_frame_of_the_maps_has_a_map(both):
     """An odd number of maps leaves no empty frame."""
     figure = tooth_figure(both.sel(side="drive").drop_vars("heat_map"), "drive")
     assert all(ax.collections for ax in figure.axes)
+
+
+def test_ratings_of_bearings_in_newtons_are_refused(car):
+    with pytest.raises(ParameterError, match="88 kN is 88, not 88000"):
+        rated_bearing(car.axle.bearing, [88000.0])
