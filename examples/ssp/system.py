@@ -1,4 +1,4 @@
-"""The SSP archive of a car and its axle: SystemStructure.ssd around two FMUs."""
+"""SSP archives of a car and its axle, and of a car and its e-axle: a system around two FMUs."""
 
 from __future__ import annotations
 
@@ -10,23 +10,36 @@ from xml.etree import ElementTree
 from fmu_src.identity import write_archive
 
 Values = Mapping[str, float | int]  # an int is an Integer parameter
-_STANDARD = "http://ssp-standard.org/SSP1/"
+Ends = tuple[tuple[str, str], tuple[str, str]]  # (element, output) -> (element, input)
+_STANDARD = "http://ssp-standard.org/SSP1/"  # of SSP 2.0 too
 _NAMESPACES = {
     "ssd": f"{_STANDARD}SystemStructureDescription",
     "ssc": f"{_STANDARD}SystemStructureCommon",
     "ssv": f"{_STANDARD}SystemStructureParameterValues",
 }
-# (element, output) -> (element, input)
-CONNECTIONS = (
-    (("car", "pinion.torque"), ("axle", "pinion.torque")),
-    (("car", "wheel.torque"), ("axle", "wheel.torque")),
-    (("axle", "pinion.angle"), ("car", "pinion.angle")),
-    (("axle", "pinion.speed"), ("car", "pinion.speed")),
-    (("axle", "wheel.angle"), ("car", "wheel.angle")),
-    (("axle", "wheel.speed"), ("car", "wheel.speed")),
-)
 REQUEST = "vehicle.speed_request"  # input of the car, which only parameter sets set
-_FMUS = {"car": "Driveline.fmu", "axle": "HypoidAxle.fmu"}
+
+
+class System(NamedTuple):
+    """A system: the files of its elements in the archive, and what is connected."""
+
+    name: str
+    files: Mapping[str, str]
+    connections: Sequence[Ends]
+
+
+def _system(name: str, axle: str, pinion: tuple[str, str], wheel: tuple[str, str]) -> System:
+    """Return a car around an axle, whose flanges have these names for (torque, motion)."""
+    connections: list[Ends] = []
+    for end, (torque, motion) in (("pinion", pinion), ("wheel", wheel)):
+        connections.append((("car", f"{end}.torque"), ("axle", f"{torque}.torque")))
+        for one in ("angle", "speed"):
+            connections.append((("axle", f"{motion}.{one}"), ("car", f"{end}.{one}")))
+    return System(name, {"car": "Driveline.fmu", "axle": axle}, connections)
+
+
+CAR_AND_AXLE = _system("car_and_axle", "HypoidAxle.fmu", ("pinion", "pinion"), ("wheel", "wheel"))
+CAR_AND_E_AXLE = _system("car_and_e_axle", "EAxle.fmu", ("motor", "input"), ("road", "output"))
 
 
 class ParameterSet(NamedTuple):
@@ -39,31 +52,31 @@ class ParameterSet(NamedTuple):
 
 def write_ssp(
     path: Path,
-    driveline: Path,
-    axle: Path,
+    system: System,
+    fmus: Mapping[str, Path],
     sets: Sequence[ParameterSet],
     *,
     system_connectors: bool = False,
+    version: str = "1.0",
 ) -> Path:
     """Write the archive and return its path.
 
     Parameters
     ----------
     path : path
-    driveline, axle : path
-        The FMUs.
+    system : System
+    fmus : mapping of str to path
+        The FMU of each element.
     sets : sequence of ParameterSet
         For each component, the first is the one that a host takes which cannot choose.
     system_connectors : bool
         Whether the system has a connector of its own, for the vehicle's speed. FMPy needs one,
         libcosim and Ecos know connections between elements only.
+    version : {"1.0", "2.0"}
+        Version of SSP; 2.0 is that of SSP 2.0.1 too.
     """
-    description = _described(sets, system_connectors)
-    content = {
-        "SystemStructure.ssd": description,
-        "resources/Driveline.fmu": driveline.read_bytes(),
-        "resources/HypoidAxle.fmu": axle.read_bytes(),
-    }
+    content = {f"resources/{system.files[name]}": fmu.read_bytes() for name, fmu in fmus.items()}
+    content["SystemStructure.ssd"] = _described(system, sets, system_connectors, version)
     write_archive(path, content)
     return path
 
@@ -77,51 +90,47 @@ def write_ssv(path: Path, sets: Sequence[ParameterSet]) -> Path:
     return path
 
 
-def _described(sets: Sequence[ParameterSet], system_connectors: bool) -> bytes:
-    root = _root("ssd", "SystemStructureDescription", version="1.0", name="car_and_axle")
+def _described(
+    described: System, sets: Sequence[ParameterSet], system_connectors: bool, version: str
+) -> bytes:
+    root = _root("ssd", "SystemStructureDescription", version=version, name=described.name)
     system = _child(root, "ssd", "System", name="system")
     if system_connectors:
         own = _child(system, "ssd", "Connectors")
         _connector(own, "vehicle.speed", "output")
     elements = _child(system, "ssd", "Elements")
-    for name, fmu in _FMUS.items():
-        _component(elements, name, fmu, [s for s in sets if s.component == name], system_connectors)
+    for name, fmu in described.files.items():
+        own_sets = [one for one in sets if one.component == name]
+        component = _child(
+            elements, "ssd", "Component", name=name, type="application/x-fmu-sharedlibrary",
+            source=f"resources/{fmu}",
+        )  # fmt: skip
+        connectors = _child(component, "ssd", "Connectors")
+        for ends in described.connections:
+            for kind, (element, variable) in zip(("output", "input"), ends, strict=True):
+                if element == name:
+                    _connector(connectors, variable, kind)
+        if name == "car" and system_connectors:
+            _connector(connectors, "vehicle.speed", "output")
+        _bindings(component, own_sets, version)
     connections = _child(system, "ssd", "Connections")
-    inner = [(*a, *b) for a, b in CONNECTIONS]
+    inner = [(*start, *end) for start, end in described.connections]
     outer = [("car", "vehicle.speed", "", "vehicle.speed")]
-    for start, output, end, given in [*inner, *(outer if system_connectors else [])]:
-        ends = {"startElement": start, "startConnector": output, "endElement": end,
-                "endConnector": given}  # fmt: skip
-        _child(connections, "ssd", "Connection", **{k: v for k, v in ends.items() if v})
+    for start, given_out, end, given_in in [*inner, *(outer if system_connectors else [])]:
+        ends_of = {"startElement": start, "startConnector": given_out, "endElement": end,
+                   "endConnector": given_in}  # fmt: skip
+        _child(connections, "ssd", "Connection", **{k: v for k, v in ends_of.items() if v})
     _child(root, "ssd", "DefaultExperiment", startTime="0", stopTime="1")
     return _bytes(root)
 
 
-def _component(
-    parent: ElementTree.Element,
-    name: str,
-    fmu: str,
-    sets: Sequence[ParameterSet],
-    system_connectors: bool,
-) -> None:
-    component = _child(
-        parent, "ssd", "Component", name=name, type="application/x-fmu-sharedlibrary",
-        source=f"resources/{fmu}",
-    )  # fmt: skip
-    connectors = _child(component, "ssd", "Connectors")
-    for start, end in CONNECTIONS:
-        for kind, (element, variable) in (("output", start), ("input", end)):
-            if element == name:
-                _connector(connectors, variable, kind)
-    if name == "car" and system_connectors:
-        _connector(connectors, "vehicle.speed", "output")
+def _bindings(component: ElementTree.Element, sets: Sequence[ParameterSet], version: str) -> None:
     if not sets:
         return
     bindings = _child(component, "ssd", "ParameterBindings")
     for one in sets:
-        binding = _child(bindings, "ssd", "ParameterBinding")
-        values = _child(binding, "ssd", "ParameterValues")
-        _values(_child(values, "ssv", "ParameterSet", version="1.0", name=one.name), one.values)
+        values = _child(_child(bindings, "ssd", "ParameterBinding"), "ssd", "ParameterValues")
+        _values(_child(values, "ssv", "ParameterSet", version=version, name=one.name), one.values)
 
 
 def _values(parent: ElementTree.Element, values: Values) -> None:
