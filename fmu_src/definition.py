@@ -40,6 +40,8 @@ FLANGES: Mapping[str, tuple[str, str, str, str]] = {
     "wheel": ("Shaft of the gear to the wheels", "wheel.torque", "wheel.speed", "wheel.angle"),
 }
 
+MAP = "org.fmi-standard.fmi-ls-struct.map"  # what kinds of members of a sampled map begin with
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Definition:
@@ -69,6 +71,10 @@ class Definition:
         Files of code that the model needs and that the slave's module does not import.
     flanges : mapping
         As FLANGES; terminals of FMI 3.
+    map_members : tuple of (str, str)
+        Variables of FMI 3 that form one sampled map on a rectilinear grid, with their kinds.
+    map_shape : tuple of int
+        Points on each axis of that map.
     """
 
     name: str
@@ -83,6 +89,8 @@ class Definition:
     resources: Mapping[str, bytes] = field(default_factory=dict)
     sources: tuple[str, ...] = ()
     flanges: Mapping[str, tuple[str, str, str, str]] = field(default_factory=lambda: FLANGES)
+    map_members: tuple[tuple[str, str], ...] = ()
+    map_shape: tuple[int, ...] = ()
 
     @cached_property
     def references(self) -> dict[str, int]:

@@ -253,7 +253,7 @@ COMMANDS = (
     LazyCommand(
         name="export",
         target="gearlube.cli.export:export",
-        summary="Write results of any study for other tools: CSV, MATLAB, UFF58, MDF4, VTK.",
+        summary="Write results of any study for other tools: CSV, MATLAB, UFF58, MDF4, VTK, FMU.",
         panel=_STUDIES,
     ),
     LazyCommand(

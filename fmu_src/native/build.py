@@ -12,14 +12,19 @@ from importlib.util import find_spec
 from pathlib import Path
 from uuid import UUID
 
-from fmu_src.definition import Definition
 from fmu_src.documentation import index_html
 from fmu_src.identity import licence_texts, source_digest, write_archive
 from fmu_src.model_description import model_description
 from fmu_src.native import tangent
 from fmu_src.native.kept import PREBUILT, keep_library, kept_library, one_builds
 from fmu_src.native.model import ENTRY_SIGNATURE, NativeModel
-from fmu_src.native.model_description_3 import ICON, model_description_3, terminals
+from fmu_src.native.model_description_3 import (
+    ICON,
+    STRUCT,
+    model_description_3,
+    struct_manifest,
+    terminals,
+)
 from fmu_src.native.model_file import MODEL_FILE, model_body, model_file
 from fmu_src.native.platforms import (
     BUILD_OPTIONS,
@@ -33,25 +38,12 @@ from fmu_src.native.platforms import (
     shared_library,
     universal_library,
 )
+from fmu_src.native.related_files import described, reference_run
 from fmu_src.native.sources import c_sources, library_name, model_sizes
 from fmu_src.object_code import cpu_of_kernels, intermediate_code, object_code
 from gearlube_core.checks import check_option
 from gearlube_core.kernels.source_code import code_of
 from gearlube_core.kernels.source_files import source_files
-
-FOLDER = "extra/gearlube"
-
-STEP = 1e-3  # s
-
-STEPS = 50
-
-_CHANGED_AT = 25  # steps, when the torques change
-
-TORQUES = {"pinion.torque": 1.2, "wheel.torque": 1.2}  # over their start values, from then on
-
-EXACT = 17  # digits of the inputs: less would turn a pair that is nearly balanced
-
-TOLERANCE = 1e-6  # of each output's largest value, between this run and one in another host
 
 ENTRY = "gearlube_entry"
 FMI_VERSIONS = ("2", "3")
@@ -77,7 +69,8 @@ class NativeOptions:
     fmi : sequence of {"2", "3"}
         Versions of the standard, an archive for each.
     reference : bool
-        Whether results of the Python model go into the archives, for hosts to compare with.
+        Whether the archives describe themselves, with results of the Python model for hosts to
+        compare with: see `related_files`.
     report : callable
         Called with each line of progress.
 
@@ -260,6 +253,8 @@ def fmi3_content(model: NativeModel, built: dict[str, bytes]) -> dict[str, bytes
     content = _common_content(model, guid)
     content["modelDescription.xml"] = model_description_3(definition, guid, model.exchange)
     content["terminalsAndIcons/terminalsAndIcons.xml"] = terminals(definition)
+    if definition.map_members:
+        content[STRUCT] = struct_manifest()
     content[ICON] = (_PACKAGE / "model.png").read_bytes()
     for platform in PLATFORMS:
         if platform.name in built:
@@ -280,70 +275,17 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
     """
     platforms = [one for one in PLATFORMS if one.name in options.platforms]
     built = libraries(model, platforms, options.report)
-    results = {}
+    run = None
     if options.reference and model.entry is not None:
         options.report(f"{model.definition.name}: reference results")
-        results = _reference_results(model.definition)
+        run = reference_run(model.definition)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
     paths = []
     for number in options.fmi:
         ending, content = contents[number]
         paths.append(out_dir / f"{model.definition.name}{ending}.fmu")
-        write_archive(paths[-1], content(model, built) | results)
+        files = content(model, built)
+        if options.reference:
+            files |= described(model, files, run)
+        write_archive(paths[-1], files)
     return paths
-
-
-def _reference_results(definition: Definition) -> dict[str, bytes]:
-    """Return the files of a run of the Python model with all parameters at their start values.
-
-    Every output that is a Real and no element of a series is there, with seven digits; the inputs
-    are exact.
-
-    Notes
-    -----
-    A row of the inputs is what is set at that communication point, for the step that begins there.
-    """
-    inputs = [v for v in definition.variables if v.causality == "input"]
-    start = [float(v.start or 0.0) for v in inputs]
-    later = [value * TORQUES.get(v.name, 1.0) for v, value in zip(inputs, start, strict=True)]
-    parameters = {
-        v.name: v.decoded(v.start or 0.0) for v in definition.variables if v.is_model_parameter
-    }
-    outputs = {
-        v.name: definition.output_names.index(v.name)
-        for v in definition.variables
-        if v.causality == "output" and v.type == "Real" and "[" not in v.name
-    }
-    model = definition.start_model(parameters, start)
-    given, rows = [], []
-    for k in range(STEPS + 1):
-        now = start if k < _CHANGED_AT else later
-        given.append(_line(k * STEP, now, EXACT))
-        found = model.outputs  # a train computes all of them each time
-        rows.append(_line(k * STEP, [found[i] for i in outputs.values()]))
-        if k < STEPS:
-            model.step(STEP, *now)
-    options = {
-        "StartTime": 0.0,
-        "StopTime": STEPS * STEP,
-        "StepSize": STEP,
-        "RelTol": TOLERANCE,
-        "OutputInterval": STEP,
-    }
-    files = {
-        "ref.opt": [f"{name}, {value:g}" for name, value in options.items()],
-        "in.csv": [_heading([v.name for v in inputs]), *given],
-        "ref.csv": [_heading(list(outputs)), *rows],
-    }
-    return {
-        f"{FOLDER}/{definition.name}_{ending}": "".join(f"{line}\n" for line in lines).encode()
-        for ending, lines in files.items()
-    }
-
-
-def _heading(names: list[str]) -> str:
-    return ",".join(f'"{name}"' for name in ("time", *names))
-
-
-def _line(time: float, values: list[float], digits: int = 7) -> str:
-    return ",".join(f"{value:.{digits}g}" for value in (time, *values))

@@ -65,6 +65,7 @@ from gearlube_core.dynamics.hypoid_axle.train_outputs import (
     gather_outputs,
     gather_rates,
 )
+from gearlube_core.dynamics.hypoid_axle.uncertain import uncertain_of
 from gearlube_core.dynamics.hypoid_mesh.kernel_parameters import AxleParameters, without_losses
 from gearlube_core.dynamics.hypoid_mesh.parameters import NO_MODAL_LOSS, PRINTED_WITH_SOLVED_FILM
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import AT_MEANS
@@ -332,6 +333,7 @@ def native_model(definition: Definition) -> NativeModel:
         ranges_at=int(place.ranges.torque_low),
         ranges=unnamed.ranges,
         refusals=REFUSALS,
+        uncertain=uncertain_of(by_default),
         motion=frozenset(output_names.MOTION_OUTPUTS),
         groups={
             Group.RATES: frozenset(output_names.RATE_OUTPUTS),

@@ -10,6 +10,7 @@ from numba import types
 
 from fmu_src.definition import Definition
 from gearlube_core.arrays import Array
+from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
 from gearlube_core.dynamics.ranges import Range
 
 _POINTER = types.CPointer(types.float64)
@@ -97,6 +98,8 @@ class NativeModel:
     any_sizes : bool
         Whether the library is one for models of other variables too: the entry of such a kind knows
         no size, and CHECK gets all of `gl_sizes` behind both lengths.
+    uncertain : tuple of Uncertain
+        Data that its losses are known to a factor by.
     state_size : int
         Everything that the future depends on: states, inputs of the last step, step control.
     control_at : int
@@ -141,3 +144,4 @@ class NativeModel:
     exchange: Exchange | None = None
     kind: str = ""
     any_sizes: bool = False
+    uncertain: tuple[Uncertain, ...] = ()

@@ -5,10 +5,11 @@ from __future__ import annotations
 from importlib.metadata import version
 from xml.etree import ElementTree
 
-from fmu_src.definition import Definition
+from fmu_src.definition import MAP, Definition
 from fmu_src.model_description import (
     attributes_of,
     dependencies_of,
+    number_text,
     type_name,
     write_default_experiment,
     write_log_categories,
@@ -21,11 +22,16 @@ from fmu_src.variable import Variable
 
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
 _MEMBERS = ("torque", "speed", "angle")
+STRUCT = "extra/org.fmi-standard.fmi-ls-struct/fmi-ls-manifest.xml"
+_LS_MANIFEST = "http://fmi-standard.org/fmi-ls-manifest"
+ElementTree.register_namespace("fmi-ls", _LS_MANIFEST)
 ICON = "terminalsAndIcons/icon.png"
 _ICON_SIZE = 100.0  # of the drawing in its own units
 
 
-def _variable(parent: ElementTree.Element, array: ArrayVariable, state: int | None) -> None:
+def _variable(
+    parent: ElementTree.Element, array: ArrayVariable, definition: Definition, state: int | None
+) -> None:
     variable: Variable = array.variable
     attributes = {
         "name": variable.name,
@@ -38,11 +44,15 @@ def _variable(parent: ElementTree.Element, array: ArrayVariable, state: int | No
         attributes["initial"] = variable.initial
     if state is not None:
         attributes["derivative"] = str(state)
-    element = ElementTree.SubElement(
-        parent, _TYPES[variable.type], attributes | attributes_of(variable)
-    )
-    if len(array.references) > 1:
-        ElementTree.SubElement(element, "Dimension", start=str(len(array.references)))
+    attributes |= attributes_of(variable)
+    n = len(array.references)
+    if n > 1 and variable.start is not None:
+        members = (definition.variables[one] for one in array.references)
+        attributes["start"] = " ".join(number_text(one.start or 0.0) for one in members)
+    element = ElementTree.SubElement(parent, _TYPES[variable.type], attributes)
+    of_map = (variable.name, f"{MAP}.codomain") in definition.map_members
+    for length in definition.map_shape if of_map else (n,) * (n > 1):
+        ElementTree.SubElement(element, "Dimension", start=str(length))
 
 
 def _types(root: ElementTree.Element, definition: Definition) -> None:
@@ -152,13 +162,14 @@ def model_description_3(
     )
     for array in array_variables(definition.variables):
         state = array.variable.rate_of if exchange else ""
-        _variable(parent, array, definition.references[state] if state else None)
+        of_rate = definition.references[state] if state else None
+        _variable(parent, array, definition, of_rate)
     _structure(root, definition, exchange)
     return xml_bytes(root)
 
 
 def terminals(definition: Definition) -> bytes:
-    """Return terminalsAndIcons.xml: the flanges, and the icon."""
+    """Return terminalsAndIcons.xml: the flanges or the sampled map, and the icon."""
     root = ElementTree.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
     box = {"x1": "0", "y1": "0", "x2": str(_ICON_SIZE), "y2": str(_ICON_SIZE)}
     graphics = ElementTree.SubElement(root, "GraphicalRepresentation")
@@ -183,4 +194,36 @@ def terminals(definition: Definition) -> bytes:
                 memberName=member,
                 variableKind="signal",
             )
+    if definition.map_members:
+        terminal = ElementTree.SubElement(
+            parent,
+            "Terminal",
+            name="map",
+            matchingRule=MAP,
+            terminalKind=f"{MAP}.rectilinearGrid",
+            description="Points of the map, and its value at the inputs",
+        )
+        for variable, kind in definition.map_members:
+            ElementTree.SubElement(
+                terminal,
+                "TerminalMemberVariable",
+                variableName=variable,
+                memberName=variable,
+                variableKind=kind,
+            )
     return xml_bytes(root)
+
+
+def manifest_root(tag: str, name: str, release: str, words: str) -> ElementTree.Element:
+    """Return the root of the manifest of a layered standard."""
+    root = ElementTree.Element(tag)
+    for key, text in (("name", name), ("version", release), ("description", words)):
+        root.set(f"{{{_LS_MANIFEST}}}fmi-ls-{key}", text)
+    return root
+
+
+def struct_manifest() -> bytes:
+    """Return the manifest of FMI-LS-STRUCT."""
+    words = "Layered standard for structuring of variables"
+    tag, name = "fmiLayeredStandardManifest", "org.fmi-standard.fmi-ls-struct"
+    return xml_bytes(manifest_root(tag, name, "1.0.0-rc.1", words))

@@ -17,7 +17,7 @@ def export(
     run: Annotated[
         Path, typer.Argument(help="Folder of results of any study, or a NetCDF file (.nc).")
     ],
-    to: Annotated[str, typer.Option(help="csv, mat, uff58, mdf4 or vtk.", metavar="FORMAT")],
+    to: Annotated[str, typer.Option(help="csv, mat, uff58, mdf4, vtk or fmu.", metavar="FORMAT")],
     out: Annotated[
         Path | None,
         typer.Option(
@@ -39,12 +39,13 @@ def export(
         bool, typer.Option("--overwrite", help="Write also where OUT is there.")
     ] = False,
 ) -> None:
-    """Write results of any study for other tools: tables, MATLAB, UFF58, MDF4, VTK.
+    """Write results of any study for other tools: tables, MATLAB, UFF58, MDF4, VTK, FMU.
 
     csv writes a folder with one table for each set of dimensions, and tables.csv, which says what
     is where. uff58 holds time histories and spectra, and needs pip install 'gearlube[sound]'.
     mdf4 holds time histories as a measurement file, and vtk writes a folder of fields (contact,
-    ehl); both need pip install 'gearlube[export]'.
+    ehl); both need pip install 'gearlube[export]'. fmu makes a loss map an FMU of FMI 3.0, and
+    needs pip install 'gearlube[native]'.
     """
     from gearlube.output.exports.export import export_results
 

@@ -16,6 +16,7 @@ from fmpy.fmi1 import FMICallException
 from docs.fmu_hosts import hosts
 from docs.fmu_hosts.hosts import Job
 from fmu_src.native.models import native_model
+from fmu_src.native.related_files import FOLDER
 from tests.helpers.fmu_cases import CASES, HYPOID_AXLE, Case
 from tests.helpers.host_floats import SETTINGS, under
 from tests.helpers.native_fmus import NativeFmus, native_fmus
@@ -129,7 +130,7 @@ def test_the_reference_results_inside_come_out_again(
     native_case: Case, fmus: NativeFmus, tmp_path: Path
 ) -> None:
     """As a host does that knows the files of the FMI Cross-Check alone."""
-    place = Path(fmpy.extract(str(fmus.fmi2), str(tmp_path))) / "extra" / "gearlube"
+    place = Path(fmpy.extract(str(fmus.fmi2), str(tmp_path))) / FOLDER
     options = dict(
         line.split(", ")
         for line in (place / f"{native_case.name}_ref.opt").read_text().split("\n")[:-1]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import shutil
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -21,8 +21,10 @@ from gearlube.output.units import is_text, unit_of
 from gearlube_core.errors import FileError, ParameterError
 from gearlube_core.extras import extra_package
 from gearlube_core.storage.atomic_file import atomic_write, loaded, open_dataset
+from gearlube_core.units import ZERO_CELSIUS
 
 _VERSION = "4.10"
+_MAP_AXES = ("speed", "torque", "temperature")
 _PLAIN = ("1", "not stated")  # units that are left empty
 
 Span = tuple[str, str]  # first and last value as text; an empty text is no limit
@@ -117,6 +119,44 @@ def _signal(asammdf: Any, dataset: xr.Dataset, record: Record) -> Any:
     )
 
 
+def _write_map_fmu(
+    dataset: xr.Dataset, path: Path, platforms: Sequence[str] | None = None
+) -> list[Path]:
+    """Write the loss torque of `gearlube map`, with its error bars, as an FMU of FMI 3.0.
+
+    Raises
+    ------
+    ParameterError
+        The dataset is no loss map, lacks points, or has fewer than two on an axis.
+    GearLubeError
+        The compiler is missing.
+    """
+    from fmu_src.native.build import NativeOptions, build_native
+    from fmu_src.native.loss_map import loss_map_model
+    from fmu_src.native.platforms import PLATFORM_NAMES
+
+    if not {*_MAP_AXES, "loss_torque"} <= set(dataset.variables):
+        raise ParameterError(
+            "An FMU of a sampled map must hold loss_torque over speed, torque and temperature, got "
+            f"{', '.join(map(str, dataset.data_vars)) or 'none'}. Give the results of gearlube "
+            "map, or choose csv or mat."
+        )
+    speed, torque, temperature = (np.asarray(dataset[name].values) for name in _MAP_AXES)
+    model = loss_map_model(
+        {"speed": speed * (np.pi / 30.0), "torque": torque,
+         "temperature": temperature + ZERO_CELSIUS},
+        {name: np.asarray(dataset[name].transpose(*_MAP_AXES).values)
+         for name in ("loss_torque", "loss_torque_low", "loss_torque_high") if name in dataset},
+        f"Loss map of an axle, mesh {dataset.attrs['mesh']}, oil {dataset.attrs['oil']}",
+    )  # fmt: skip
+    with TemporaryDirectory() as folder:
+        options = NativeOptions(platforms=platforms or PLATFORM_NAMES, fmi=["3"])
+        (made,) = build_native(model, Path(folder), options)
+        with atomic_write(path) as partial:
+            shutil.copyfile(made, partial)
+    return [path]
+
+
 # format: ending of the file, or of the folder where there are several, and what writes it
 FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
     "csv": ("_csv", write_tables),
@@ -124,6 +164,7 @@ FORMATS: dict[str, tuple[str, Callable[[xr.Dataset, Path], list[Path]]]] = {
     "uff58": (".uff", write_uff58),
     "mdf4": (".mf4", _write_mdf4),
     "vtk": ("_vtk", write_vtk),
+    "fmu": (".fmu", _write_map_fmu),
 }
 
 
@@ -143,7 +184,7 @@ def export_results(
     run : str or Path
         Folder of results with one NetCDF file, or a NetCDF file.
     to : str
-        csv, mat, uff58, mdf4 or vtk.
+        csv, mat, uff58, mdf4, vtk or fmu.
     out : str or Path, optional
         File to write; with csv and vtk a folder. Default: the name of the dataset, in this folder.
     variables : iterable of str
