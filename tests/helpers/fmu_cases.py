@@ -10,10 +10,12 @@ from typing import Any
 from fmu_src import build, helical_pair, hypoid_axle
 from fmu_src.axle_arguments import axle_parameters
 from fmu_src.definition import Definition
+from fmu_src.variable import OF_HOLDER
 from gearlube_core.dynamics.helical_model.model import HelicalPairModel
 from gearlube_core.dynamics.hypoid_axle import HypoidAxle, mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.loss_band import loss_sensitivities
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
+from gearlube_core.dynamics.train.elements.held_port import Hold, SpeedHolder
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh
 from tests.helpers.axle_cases import axle_with
@@ -37,7 +39,7 @@ class Case:
     snapshot: str
     arguments: dict[str, str]
     parameters: Callable[..., Any]
-    model: Callable[[Any], Any]
+    model: Callable[..., Any]
     changed: dict[str, float]
     reals: dict[str, float]
     integers: dict[str, int]
@@ -83,6 +85,7 @@ class Case:
         speed: float | None = None,
         torques: list[tuple[float, float]] | None = None,
         oil_temperature: float = 333.15,
+        mode: Hold = "none",
         **settings: Any,
     ) -> list[float]:
         """Outputs of the model in Python, without FMI, after steps of H.
@@ -90,7 +93,7 @@ class Case:
         In the order of the FMU's variables: younger ones stand at the end there.
         """
         torques = torques or steps * [self.torques] or [self.torques]
-        model = self.model(self.parameters(**settings))
+        model = self.model(self.parameters(**settings), holder=SpeedHolder(mode=mode))
         model.initialise(
             pinion_speed=self.start("pinion.speed_start") if speed is None else speed,
             pinion_torque=torques[0][0],
@@ -118,14 +121,15 @@ def hypoid(**settings: Any) -> Any:
     return axle_parameters(late, axle) if late else axle
 
 
-def with_band(parameters: HypoidAxleParameters) -> HypoidAxle:
+def with_band(parameters: HypoidAxleParameters, holder: SpeedHolder | None = None) -> HypoidAxle:
     """The axle as its FMU has it: the band of its loss is that of the paper's axle."""
-    return HypoidAxle(parameters, loss_sensitivities(mohammadpour_2015_axle()))
+    return HypoidAxle(parameters, loss_sensitivities(mohammadpour_2015_axle()), holder)
 
 
 def settings_of(definition: Definition) -> dict[str, str]:
-    """Names of the parameters of a model, without its start speed."""
-    return {n: a for n, a in definition.arguments.items() if a != "pinion_speed"}
+    """Names of the parameters of a model, without its start speed and numbers of its holder."""
+    of_run = {"pinion_speed", *OF_HOLDER[1:]}
+    return {n: a for n, a in definition.arguments.items() if a not in of_run}
 
 
 HYPOID_AXLE = Case(
