@@ -11,6 +11,7 @@ import pytest
 
 from fmu_src.helical_pair import DEFINITION, HelicalPair, definition_with, pair_parameters
 from fmu_src.identity import guid_of
+from fmu_src.variable import OF_HOLDER
 from gearlube.output.toml_text import toml_text
 from gearlube.studies.bearing.report import findings
 from gearlube.studies.bearing.run import BearingSettings, run_bearing
@@ -136,7 +137,8 @@ def test_an_fmu_carries_model_and_oil(folder):
     starts = {v.argument: v.decoded(v.start) for v in definition.variables if v.is_model_parameter}
     assert (starts["oil"], starts["film"], starts["gear_name"]) == ("custom", "solved", "custom")
     embedded = definition.start.keywords["embedded"]
-    starts.pop("pinion_speed")
+    for of_run in ("pinion_speed", *OF_HOLDER):
+        starts.pop(of_run, None)
     own = pair_parameters(starts, embedded)
     assert own.oil.name == "own"
     assert own.line_film_model.name == "altered"

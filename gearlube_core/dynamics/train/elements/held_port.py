@@ -187,7 +187,11 @@ class HeldPort(Port):
     def fits(self, bodies: Sequence[Body], elements: Sequence[Element]) -> None:
         """Raise ParameterError where the body cannot be held at a speed."""
         body = next((one for one in bodies if one.name == self.body), None)
-        if isinstance(body, Node | Hidden) or (body is not None and "rz" in body.held):
+        if isinstance(body, Node | Hidden):
+            wrong = self.holder.mode != "none"
+        else:
+            wrong = body is not None and "rz" in body.held
+        if wrong:
             raise ParameterError(
                 f"body of {self.name} must be a rigid body that turns, got {self.body}. Hold the "
                 "speed of a rigid body, such as one with the inertia of a motor."
