@@ -14,7 +14,7 @@ from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.dynamics.train.assemble import Bodies, assemble
 from gearlube_core.dynamics.train.choice import Driver, kernel_of
 from gearlube_core.dynamics.train.element import COORDINATES
-from gearlube_core.dynamics.train.elements.held_port import REFERENCE, HeldPort
+from gearlube_core.dynamics.train.elements.held_port import REFERENCE, speed_references
 from gearlube_core.dynamics.train.elements.orbit import Orbit
 from gearlube_core.dynamics.train.elements.port import Port
 from gearlube_core.dynamics.train.march import ENERGY, EVENT, START, WRITE
@@ -106,13 +106,8 @@ class Train(MarchedTrain):
         operate = kernel_of(made, driver, [one.name for one in self.elements])
         super().__init__(made, operate, np.array([math.nan, LEAST_RATE]))
         self._output_names = tuple(one.name for one in self._made.outputs)
-        ports = (one.name for one in elements if isinstance(one, Port))
-        self._ports = {name: self._made.kept[name] for name in ports}
-        self.references = {
-            f"{one.name}.speed_reference": one.speed_reference
-            for one in elements
-            if isinstance(one, HeldPort) and one.holder.mode != "none"
-        }
+        self._ports = {one.name: made.kept[one.name] for one in elements if isinstance(one, Port)}
+        self.references = speed_references(elements)
         self._continuous = np.array([one.place for one in self._made.continuous])
         self._rate_places = np.array([one.rate for one in self._made.continuous])
         self._events = np.array([one.place for one in self._made.events], dtype=int)
@@ -172,9 +167,7 @@ class Train(MarchedTrain):
         self._beside[:] = temperature, work[0]
 
     def step(self, h: float, torques: Mapping[str, float], oil_temperature: float) -> None:
-        """Advance by `h` [s] under constant torques [N.m] and oil temperature [K].
-
-        Beside the torques there may be new ones of `references` [rad/s].
+        """Advance by `h` [s] under torques [N.m] or `references` [rad/s], and oil temperature [K].
 
         Raises
         ------

@@ -200,3 +200,12 @@ class HeldPort(Port):
     def kept_size(self) -> int:
         """Return how many numbers are kept."""
         return N_KEPT
+
+
+def speed_references(elements: Sequence[object]) -> dict[str, float]:
+    """Return the inputs of ports that hold a speed, with their start values [rad/s]."""
+    return {
+        f"{one.name}.speed_reference": one.speed_reference
+        for one in elements
+        if isinstance(one, HeldPort) and one.holder.mode != "none"
+    }
