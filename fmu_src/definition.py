@@ -9,6 +9,7 @@ from typing import Protocol
 
 from fmu_src.variable import Variable
 from gearlube_core.arrays import Array
+from gearlube_core.errors import ParameterError
 
 Value = float | int | bool | str
 
@@ -43,6 +44,12 @@ FLANGES: Mapping[str, tuple[str, str, str, str]] = {
 MAP = "org.fmi-standard.fmi-ls-struct.map"  # what kinds of members of a sampled map begin with
 
 
+def _native_only(parameters: Mapping[str, Value], inputs: Sequence[float]) -> Model:
+    raise ParameterError(
+        "This model must run as a native FMU, got a start in Python. Build it without --python."
+    )
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Definition:
     """An FMU as data.
@@ -58,7 +65,8 @@ class Definition:
     output_names : tuple of str
         Names of the model's outputs in the order of `Model.outputs`.
     start : callable
-        (parameters by `Variable.argument`, input values) -> initialised `Model`.
+        (parameters by `Variable.argument`, input values) -> initialised `Model`; left out: the FMU
+        is native only.
     stop_time, step_size : float
         Default experiment [s].
     slave : str
@@ -81,7 +89,7 @@ class Definition:
     description: str
     variables: tuple[Variable, ...]
     output_names: tuple[str, ...]
-    start: Callable[[Mapping[str, Value], Sequence[float]], Model]
+    start: Callable[[Mapping[str, Value], Sequence[float]], Model] = _native_only
     stop_time: float
     step_size: float
     slave: str

@@ -8,7 +8,7 @@ start. So there is no second copy of the equations.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +27,7 @@ from drivetrain.driveline.equations import (
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.driveline.steady_state import periodic_deviation, steady_state
 from drivetrain.road_load import mohammadpour_2015_road_load
-from fmu_src.definition import Definition, Model, Value
+from fmu_src.definition import Definition
 from fmu_src.native.model import NativeModel
 from fmu_src.variable import Variable, count, input_, output, parameter
 from gearlube_core.arrays import Array
@@ -134,10 +134,6 @@ def _data(car: DrivelineParameters) -> Array:
     return np.concatenate(parts)
 
 
-def _no_python_model(parameters: Mapping[str, Value], inputs: Sequence[float]) -> Model:
-    raise NotImplementedError("gearlube has this model as drivetrain.driveline.model.Driveline")
-
-
 def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
     """Return the native model of a car around its axle.
 
@@ -161,7 +157,6 @@ def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
             description="Engine, gearbox, shafts, wheels and vehicle around a driven axle",
             variables=variables,
             output_names=tuple(v.name for v in variables if v.causality == "output"),
-            start=_no_python_model,
             stop_time=1.0,
             step_size=1e-4,
             slave="slave_base",

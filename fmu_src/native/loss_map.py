@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
-from fmu_src.definition import MAP, Definition, Model, Value
+from fmu_src.definition import MAP, Definition
 from fmu_src.native.model import NativeModel
 from fmu_src.variable import Variable, input_, output, parameter
 from gearlube_core.arrays import Array
@@ -86,7 +86,6 @@ def loss_map_model(
             description=description,
             variables=table,
             output_names=tuple(v.name for v in outputs),
-            start=_no_python_model,
             stop_time=1.0,
             step_size=1e-2,
             slave="slave_base",
@@ -116,7 +115,3 @@ def _points(
                   maximum=high, display_unit=shown, argument=f"{name}_{i}")
         for i, value in enumerate(values, start=1)
     ]  # fmt: skip
-
-
-def _no_python_model(parameters: Mapping[str, Value], inputs: Sequence[float]) -> Model:
-    raise NotImplementedError("gearlube has this map as the dataset of gearlube map")

@@ -156,7 +156,7 @@ def bin_figure(dataset: xr.Dataset, kept: Mapping[str, str]) -> Any:
                 places = np.arange(worst.size) + 0.4 * member - 0.2
                 ax.barh(places, values[worst, member], 0.4, label=role)
             ax.set_yticks(range(worst.size), [names[i] for i in worst], fontsize=8)
-            ax.set_ylim(_SHOWN - 0.5, -0.5)
+            ax.set_ylim(max(worst.size, 4) - 0.5, -0.5)
             ax.set_xlabel(words)
             ax.legend(loc="lower right")
         figure.suptitle("The bins that matter most", fontsize=10.5)

@@ -1,4 +1,4 @@
-"""The teeth of a helical or spur pair, for a damage run, with what ISO 6336 says of them."""
+"""The teeth of a helical or spur pair for a damage run, and their rating by ISO 6336."""
 
 from __future__ import annotations
 

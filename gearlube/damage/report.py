@@ -249,7 +249,7 @@ def _doubts(dataset: xr.Dataset) -> list[Finding]:
             "mild wear of FZG gears in oil, a number from memory.",
         ),
         (
-            slow > 0, NOTE, f"In {slow} bins the surfaces are slow: Peclet number below 5.",
+            slow > 0, NOTE, f"Bins with slow surfaces, Peclet number below 5: {slow}.",
             "The rise of temperature there is less than shown.",
         ),
     )  # fmt: skip

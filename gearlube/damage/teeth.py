@@ -37,7 +37,7 @@ Row = tuple[str, ...]  # of the summary
 
 
 class Beside(NamedTuple):
-    """What a standard says of a life besides pitting and breakage."""
+    """The standard's results for a life besides pitting and breakage."""
 
     rows: list[Row]
     outside: tuple[str, ...]  # limits that are exceeded, in words

@@ -6,11 +6,11 @@ In model exchange there is a wall at the angle WALL too: what arrives there turn
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from fmu_src.definition import Definition, Model, Value
+from fmu_src.definition import Definition
 from fmu_src.native.model import Exchange, NativeModel
 from fmu_src.object_code import array_at
 from fmu_src.variable import (
@@ -175,10 +175,6 @@ def entry(operation, step, data, parameters, inputs, state, work, outputs):  # t
     return 0
 
 
-def _no_python_model(parameters: Mapping[str, Value], inputs: Sequence[float]) -> Model:
-    raise NotImplementedError("this model is native only")
-
-
 def small_native_model(
     entry: Callable[..., int] = entry,
     variables: Sequence[Variable] = VARIABLES,
@@ -196,7 +192,6 @@ def small_native_model(
             description="Rotating mass with drag",
             variables=tuple(variables),
             output_names=OUTPUT_NAMES,
-            start=_no_python_model,
             stop_time=1.0,
             step_size=1e-3,
             slave="slave_base",
