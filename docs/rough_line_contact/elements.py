@@ -1,6 +1,6 @@
 """Finite elements against finite volumes in time: python -m docs.rough_line_contact.elements.
 
-Two minutes of one processor. Prints the numbers of the table in docs/rough_line_contact.md. Films
+Two minutes of one processor. Prints numbers for docs/rough_line_contact.md. Films
 are kept in the folder given as argument, by default build/rough_line_contact/elements.
 """
 

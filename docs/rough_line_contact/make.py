@@ -1,7 +1,8 @@
 """March and draw what docs/rough_line_contact.md shows: python -m docs.rough_line_contact.make.
 
 Half an hour of one processor. Marches are kept in the folder given as argument, by default
-build/rough_line_contact; a stopped one goes on. Writes docs/images/rough_*.png and numbers.csv.
+build/rough_line_contact; a stopped one goes on. Draws docs/images/rough_film.gif and
+rough_history.png, and writes numbers.csv.
 """
 
 from __future__ import annotations
@@ -15,13 +16,7 @@ import xarray as xr
 
 from docs.page import IMAGES, begin
 from gearlube.output.csv_text import csv_text
-from gearlube.plotting.style import SERIES, house_style, new_figure
-from gearlube.studies.films.figures.rough import (
-    rough_distributions,
-    rough_frame,
-    rough_history,
-    rough_thin_films,
-)
+from gearlube.studies.films.figures.rough import rough_history
 from gearlube.studies.films.rough.animation import save_rough_animation
 from gearlube.studies.films.rough.files import frame_file, read_frames, summary_rows
 from gearlube.studies.films.rough.run import run_rough
@@ -56,7 +51,6 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "straight": ("jamali_2015_a_straight", {"solver.rows": 16}),
     "five_times": ("jamali_2015_d", {}),
 }
-TITLES = {"crossed": "crossed", "straight": "straight", "five_times": "crossed, speeds times 5"}
 SHOWN = (740, 820, 880)  # steps of the differences: 0.3, 0.6 and 0.9 of the rough part
 logger = logging.getLogger("docs.rough_line_contact")
 
@@ -91,28 +85,6 @@ def frames(work: Path, name: str) -> xr.Dataset:
     return xr.concat(
         [xr.load_dataset(frame_file(work / name, step), engine="scipy") for step in SHOWN], "time"
     )
-
-
-def side_differences(work: Path) -> Any:
-    """Draw cyclic less no-flow along y, the largest over the Hertz zone in each row."""
-    cyclic, closed = frames(work, "crossed"), frames(work, "no_flow")
-    half_width = RoughCase.named("jamali_2015_a").section().hertz_contact[0]
-    inside = np.abs(cyclic["x"].values) < half_width
-    y = 1e3 * cyclic["y"].values
-    with house_style():
-        figure = new_figure(8.0, 5.0)
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        for k, step in enumerate(SHOWN):
-            for ax, name, unit in ((upper, "pressure", 1e-9), (lower, "film", 1e6)):
-                off = (cyclic[name] - closed[name]).isel(time=k).transpose("x", "y").values
-                ax.plot(
-                    y, unit * np.abs(off[inside]).max(axis=0), color=SERIES[k], label=f"step {step}"
-                )
-        upper.set_ylabel("pressure, difference [GPa]")
-        lower.set(ylabel="film, difference [µm]", xlabel="y [mm], along the contact line")
-        upper.set_title("Cyclic less no-flow sides: largest difference per row of the Hertz zone")
-        upper.legend(ncols=3)
-    return figure
 
 
 def numbers(work: Path, found: dict[str, xr.Dataset]) -> list[tuple[str, str, float, str]]:
@@ -179,20 +151,9 @@ def main(work: Path) -> None:
     """March, draw, write."""
     animation(work)
     found = marched(work)
-    shown = {TITLES[name]: found[name] for name in TITLES}
-    step = float(found["crossed"].attrs["time_step"])
-    slow = {k: v for k, v in shown.items() if k != TITLES["five_times"]}
-    figures = {
-        "rough_history": rough_history(slow, step),
-        "rough_distributions": rough_distributions(shown),
-        "rough_thin_films": rough_thin_films(slow),
-        "rough_sides": side_differences(work),
-    }
-    for name in ("crossed", "straight"):
-        frame = xr.load_dataset(frame_file(work / name, SHOWN[1]), engine="scipy")
-        figures[f"rough_{name}"] = rough_frame(frame.isel(time=0))
-    for name, figure in figures.items():
-        figure.savefig(IMAGES / f"{name}.png", dpi=110)
+    slow = {name: found[name] for name in ("crossed", "straight")}
+    figure = rough_history(slow, float(found["crossed"].attrs["time_step"]))
+    figure.savefig(IMAGES / "rough_history.png", dpi=110)
     rows = ((c, q, f"{v:.4g}", u) for c, q, v, u in numbers(work, found))
     write_text(csv_text(("case", "quantity", "value", "unit"), rows), NUMBERS)
 

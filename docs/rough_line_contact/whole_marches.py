@@ -1,8 +1,8 @@
 """Draw and tabulate the whole marches on the columns of the thesis, for 32, 64 and 128 rows.
 
 python -m docs.rough_line_contact.whole_marches [FOLDER]: seconds, from the marches that `marches`
-has finished there. Draws docs/images/rough_rows.png and rough_rows_sections.png, and prints what
-the filters leave of the profiles, too.
+has finished there. Draws docs/images/rough_rows.png, and prints what the filters leave
+of the profiles, too.
 """
 
 from __future__ import annotations
@@ -17,12 +17,10 @@ import xarray as xr
 from docs.page import IMAGES, begin
 from docs.rough_line_contact.marches import VARIANTS, case_of, filtered, folder_of
 from gearlube.plotting.style import SERIES, house_style, new_figure
-from gearlube.studies.films.rough.files import frame_file
 
 ROWS = (32, 64, 128)
 ROUGH = 2888  # steps until the whole contact is rough
-SECTIONS = ((4000, 0.0), (4480, 75e-6))  # step, x [m]: figures 7.19 and 7.20 of the thesis
-GIGAPASCAL, NANOMETRE, MILLIMETRE = 1e9, 1e-9, 1e-3
+GIGAPASCAL, NANOMETRE = 1e9, 1e-9
 
 
 def label_of(rows: int) -> str:
@@ -44,32 +42,6 @@ def pressures(found: dict[int, xr.Dataset]) -> Any:
         ax.margins(x=0.0)
         ax.legend(loc="upper left")
         ax.set_title("More rows resolve shorter waves, and these carry the peaks of pressure")
-    return figure
-
-
-def sections(work: Path, found: dict[int, xr.Dataset]) -> Any:
-    """Draw pressure and film along y at two steps, as figures 7.19 and 7.20 of the thesis."""
-    with house_style():
-        figure = new_figure(8.0, 6.4)
-        axes = figure.subplots(2, len(SECTIONS), sharex=True, sharey="row")
-        for k, rows in enumerate(found):
-            for column, (step, x) in enumerate(SECTIONS):
-                file = frame_file(folder_of(work, f"his columns, {rows} rows"), step)
-                if not file.exists():
-                    continue
-                frame = xr.load_dataset(file, engine="scipy").isel(time=0)
-                line = frame.sel(x=x, method="nearest")
-                y = line["y"] / MILLIMETRE
-                style = {"color": SERIES[k], "lw": 1.2, "label": label_of(rows)}
-                axes[0, column].plot(y, line["pressure"] / GIGAPASCAL, **style)
-                axes[1, column].plot(y, line["film"] / NANOMETRE, **style)
-        for column, (step, x) in enumerate(SECTIONS):
-            axes[0, column].set_title(f"step {step}, x = {x / MILLIMETRE:g} mm")
-            axes[1, column].set_xlabel("y [mm]")
-        axes[0, 0].set(ylabel="pressure [GPa]", ylim=(0.0, None))
-        axes[1, 0].set(ylabel="film [nm]", ylim=(0.0, None))
-        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-        figure.suptitle("Along the contact line")
     return figure
 
 
@@ -139,7 +111,6 @@ def main(work: Path) -> None:
         rows: xr.load_dataset(file, engine="scipy") for rows, file in files.items() if file.exists()
     }
     pressures(found).savefig(IMAGES / "rough_rows.png", dpi=110)
-    sections(work, found).savefig(IMAGES / "rough_rows_sections.png", dpi=110)
     sys.stdout.write("\n".join((*table(found), "", *left_by_filters(), "")))
 
 
