@@ -81,9 +81,9 @@ def _step_counts(store: Store) -> Verdict:
         "; ".join(f"{count}: {p:.2f} %, {h:.2f} %" for count, (p, h) in off.items())
         + f" off {COUNTS[-1]} (pressure, film)",
         judge_parts(max(off[400]) < 1.0),
-        f"Compared are steps {at[0]:.0f} to {at[-1]:.0f} of design A, started from rest at step "
-        f"{first}. With a first-order wedge, four times the steps change the film by 0.5 % on "
-        "97 x 81 nodes and by 6 % on 182 x 161 nodes. See the smallest film in motion, below.",
+        f"Steps {at[0]:.0f} to {at[-1]:.0f} of design A, from rest at step {first}. With a "
+        "first-order wedge, four times the steps change the film by 0.5 % on 97 x 81 nodes and by "
+        "6 % on 182 x 161 nodes.",
     )
 
 
@@ -98,12 +98,10 @@ def _ranges(store: Store, design: str, pressures: tuple[float, float], films: tu
     return Verdict(
         f"{span(p.min(), p.max(), '{:.3f}')} GPa, {span(h.min(), h.max(), '{:.3f}')} um",
         judge_parts(off_range(p, *pressures) < _PRESSURE, off_range(h, *films) < _FILM),
-        f"The film is thinnest at step {thinnest}, y = {place:.1f} mm. At rest the smallest films "
-        f"at steps 75, 300 and 500 are {rest} um. The film in motion has not converged in time: "
-        f"behind the relief of A shorter steps lead to {UM * limit:.3f} um, with an error of "
-        f"{UM * error:.3f} um. With a first-order wedge on the spacing of the thesis the film is "
-        f"at least {UM * printed:.3f} um. So the printed film is probably too thick by numerical "
-        "error. See the smallest film in motion, below.",
+        f"Thinnest at step {thinnest}, y = {place:.1f} mm; at rest at steps 75, 300 and 500 {rest} "
+        f"um. Not converged in time: behind the relief of A shorter steps lead to {UM * limit:.3f} "
+        f"um, with an error of {UM * error:.3f} um. A first-order wedge on the spacing of the "
+        f"thesis gives at least {UM * printed:.3f} um: the printed film is probably too thick.",
     )
 
 
@@ -131,8 +129,8 @@ def _best_crown(store: Store) -> Verdict:
         judge_parts(
             off_range(p, 0.98, 1.17) < _PRESSURE, off_range(h, 0.16, 0.22) < _FILM, best == 0.25
         ),
-        "The best is the one with the lowest pressure among those whose film is not thinner by 5 % "
-        f"than that of F_o = 0. Here this is F_o = {best:g} F.",
+        "Best: lowest pressure with a film not thinner by 5 % than that of F_o = 0. Here F_o = "
+        f"{best:g} F.",
     )
 
 
@@ -164,9 +162,7 @@ def _crown_order(store: Store) -> Verdict:
         f"mean over both ends {listed(sides, '{:.3f}')} GPa; peaks along the line at step 300: "
         f"{listed(counts, '{:.0f}')}",
         judge_parts(bool((np.diff(sides) < 0.0).all()), counts[0] == 1 and min(counts[1:]) >= 2),
-        "The values are for F_o = "
-        + listed(CROWNS, "{:g}")
-        + " F. A peak counts if it rises by 1 % of the largest pressure.",
+        f"For F_o = {listed(CROWNS, '{:g}')} F. A peak rises by 1 % of the largest pressure.",
     )
 
 

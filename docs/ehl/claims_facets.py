@@ -101,7 +101,7 @@ def _monotone(store: Store) -> Verdict:
     return Verdict(
         f"{listed(p)} GPa, {listed(h, '{:.3f}')} um",
         judge_parts(bool((np.diff(p) < 0.0).all()), bool((np.diff(h) > 0.0).all())),
-        f"The values are at rest at step 300, for n_f = {listed(FACETS, '{:g}')} / smooth.",
+        f"At rest, step 300, n_f = {listed(FACETS, '{:g}')} / smooth.",
     )
 
 

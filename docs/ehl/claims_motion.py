@@ -252,6 +252,6 @@ def _length(store: Store) -> Verdict:
         f"{shares[0]:.3f} w; with one crowned tooth {shares[1]:.2f} w; with relief and film at "
         f"step 300 {lubricated:.2f} w",
         judge_parts(abs(shares[0] - 0.93) <= 0.01),
-        "This is the dry contact at 14.4 kN without relief, with a crown on both teeth and "
+        "Dry contact at 14.4 kN without relief, with a crown on both teeth, "
         f"{LINE[1]} rows of nodes.",
     )

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import statistics
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from docs.ehl.film_map import (
@@ -13,9 +12,7 @@ from docs.ehl.film_map import (
     COARSE,
     ELLIPTICITIES,
     FINE,
-    FINEST,
     HAMROCK_DOWSON,
-    LOADS,
     MATERIALS,
     NIJENBANNING,
     TURNED,
@@ -25,7 +22,6 @@ from docs.ehl.film_map import (
     all_films,
     grid_error,
     map_contacts,
-    refined_contacts,
     spread,
     turned_contacts,
 )
@@ -45,28 +41,17 @@ LIMITS = (0.1, 0.2, 0.3)
 _BANDS = {0.2: "#E9E9E9", 0.1: "#CFCFCF"}  # shade by half width, the narrow one on top
 _TICKS = (0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0)
 _SPREAD = 0.035  # of markers of one load, in decades
-Group = tuple[str, list[Film]]
-_GROUPS: tuple[tuple[str, Callable[[Contact], bool]], ...] = (
-    ("all", lambda _: True),
-    ("not rigid", lambda contact: not contact.rigid),
-    ("fitted", lambda contact: contact.fitted),
-    ("fitted, not rigid", lambda contact: contact.fitted and not contact.rigid),
-)
 
 
 def put_film_map(page: Page, store: Store) -> None:
-    """Put in the tables of the map and draw its picture; all stays where films are missing."""
+    """Put in the table of the map and draw its picture; all stays where films are missing."""
     films = all_films(store)
     if not {(contact, FINE) for contact in map_contacts()} <= films.keys():
         return
     draw(films).savefig(IMAGES / "ehl_film_map.png", dpi=100)
     along = [films[c, FINE] for c in map_contacts()]
     _state(page, films)
-    page.rows("Formula | Film", _spread_rows(along))
-    page.rows(" | central film", _trend_rows(along))
-    page.cells("a_y/a_x | L | M", _map_rows(films))
-    page.cells("a_y/a_x | M | L | 0", _angle_rows(films), first=3)
-    page.rows("a_y/a_x, M, L", _grid_rows(films))
+    page.rows("Formula, not rigid", _spread_rows(along))
 
 
 def _state(page: Page, films: Films) -> None:
@@ -105,86 +90,15 @@ def _named(films: Sequence[Film]) -> str:
 
 def _spread_rows(films: Sequence[Film]) -> list[list[str]]:
     rows = []
+    elastic = [film for film in films if not film.contact.rigid]
     for quantity, source in PAIRS:
-        for words, chosen in _GROUPS:
-            some = [film for film in films if chosen(film.contact)]
-            good = [film.ratio(quantity, source) for film in some if film.converged]
-            found = spread(good, len(some) - len(good), LIMITS)
-            rows.append(
-                [source, quantity, words, str(found.count), str(found.failed),
-                 f"{found.mean:.3f}", f"{found.deviation:.3f}",
-                 f"{found.low:.2f} to {found.high:.2f}",
-                 *(f"{100.0 * share:.0f} %" for share in found.within)]
-            )  # fmt: skip
-    return rows
-
-
-def _trend_rows(films: Sequence[Film]) -> list[list[str]]:
-    groups: list[Group] = []
-    elastic = [film for film in films if film.converged and not film.contact.rigid]
-    chosen: tuple[tuple[str, tuple[float, ...], Callable[[Contact], float]], ...] = (
-        ("k", ELLIPTICITIES, lambda c: c.ellipticity),
-        ("M", LOADS, lambda c: c.M),
-        ("L", MATERIALS, lambda c: c.L),
-    )
-    for letter, values, which in chosen:
-        for value in values:
-            some = [f for f in elastic if which(f.contact) == value]
-            groups.append((f"{letter} = {value:g}", some))
-    rows = []
-    for words, some in groups:
-        if len(some) < 2:
-            continue
-        row = [words]
-        for quantity in (CENTRAL, MINIMUM):
-            ratios = [film.ratio(quantity, HAMROCK_DOWSON) for film in some]
-            row.append(f"{statistics.mean(ratios):.2f} ± {statistics.stdev(ratios):.2f}")
-        over = [film.central / film.minimum for film in some]
-        rows.append([*row, f"{min(over):.2f} to {max(over):.2f}"])
-    return rows
-
-
-def _cell(films: Films, contact: Contact, source: str) -> str:
-    film = films.get((contact, FINE))
-    if film is None:
-        return "missing"
-    if not film.converged:
-        return "**failed**"
-    mark = "" if film.sound else " *"
-    return f"{film.ratio(CENTRAL, source):.2f} / {film.ratio(MINIMUM, source):.2f}{mark}"
-
-
-def _map_rows(films: Films) -> list[list[str]]:
-    return [
-        [_cell(films, Contact(k, M, L), HAMROCK_DOWSON) for M in LOADS]
-        for k in ELLIPTICITIES
-        for L in MATERIALS
-    ]
-
-
-def _angle_rows(films: Films) -> list[list[str]]:
-    return [
-        [_cell(films, Contact(k, M, L, angle), CHITTENDEN) for angle in ANGLES]
-        for k, M, L in TURNED
-    ]
-
-
-def _grid_rows(films: Films) -> list[list[str]]:
-    rows = []
-    for contact in refined_contacts():
-        for quantity in (CENTRAL, MINIMUM):
-            if any((contact, n) not in films for n in (COARSE, FINE, FINEST)):
-                continue
-            h = [1e9 * films[contact, n].height(quantity) for n in (COARSE, FINE, FINEST)]
-            first, second = h[1] - h[0], h[2] - h[1]
-            falling = first * second > 0.0 and abs(first) > abs(second)
-            order = math.log2(first / second) if falling else math.nan
-            limit = h[2] + second / 3.0
-            rows.append(
-                [f"{contact.ellipticity:g}, {contact.M:g}, {contact.L:g}", quantity,
-                 *(f"{one:.2f}" for one in h), f"{order:.1f}" if falling else "none",
-                 f"{limit:.2f}", f"{100.0 * (h[1] / limit - 1.0):+.1f} %"]
-            )  # fmt: skip
+        good = [film.ratio(quantity, source) for film in elastic if film.converged]
+        found = spread(good, len(elastic) - len(good), LIMITS)
+        rows.append(
+            [source, quantity, str(found.count), f"{found.mean:.3f}",
+             f"{found.low:.2f} to {found.high:.2f}",
+             *(f"{100.0 * share:.0f} %" for share in found.within)]
+        )  # fmt: skip
     return rows
 
 

@@ -23,7 +23,7 @@ from docs.ehl.film_map_page import put_film_map
 from docs.ehl.lines import LostFilmError
 from docs.ehl.micro_cavity_page import put_micro_cavity
 from docs.ehl.minimum_film import put_minimum_film
-from docs.ehl.pages import dry_rows, grid_rows, put_counts, put_touching
+from docs.ehl.pages import put_counts, put_touching
 from docs.ehl.runs import all_runs, do_runs
 from docs.ehl.store import Store
 from docs.kept_films import MissingFilmError
@@ -31,19 +31,11 @@ from docs.page import IMAGES, Claims, Page, begin
 
 SMOOTH = Claims(CYCLES | RELIEFS | MOTIONS)
 # words of the page before the counts of statements
-SMOOTH_CLAIMS = "*order* only which value is larger, *shape* only how a curve rises and falls."
-FACET_CLAIMS = "with twice the nodes of the smooth cases."
+SMOOTH_CLAIMS = "*at rest* the steady one."
+FACET_CLAIMS = "with twice the nodes across."
 PICTURES: dict[str, Callable[[Store], Any]] = {
     "cycle_designs": figures_cycle.designs,
     "transient_steady": figures_fields.transient_steady,
-    "sections": figures_fields.sections,
-    "crowning": figures_cycle.crowns,
-    "linear_relief": figures_cycle.linear_relief,
-    "parabolas": figures_cycle.parabolas,
-    "speeds": figures_cycle.speeds,
-    "powers": figures_cycle.powers,
-    "power_contours": figures_fields.power_contours,
-    "power_lines": figures_fields.power_lines,
     "facets": figures_cycle.facets,
 }
 logger = logging.getLogger("docs.ehl")
@@ -67,8 +59,6 @@ def main() -> None:
     page = Page("ehl")
     for claims, after in ((SMOOTH, SMOOTH_CLAIMS), (FACETED_FLANKS, FACET_CLAIMS)):
         page.verdicts(dict.fromkeys(claims) | verdicts(claims, store), after)
-    page.cells("At rest | dry, GPa", dry_rows(store), first=1)
-    page.cells("GPa, um", grid_rows(store), first=1)
     put_minimum_film(page, store)
     put_touching(page, store)
     put_counts(page, store)

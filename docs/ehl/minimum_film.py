@@ -36,11 +36,7 @@ class Variant:
 VARIANTS = (
     Variant((97, 81), "upwind-1"),
     Variant((97, 81), "upwind-1", 4),
-    Variant((97, 81), "upwind-2"),
     Variant((97, 81), "quick"),
-    Variant((97, 81), "quick", 2),
-    Variant((97, 81), "quick", 4),
-    Variant((97, 161), "quick"),
     *(Variant((193, 161), "quick", n) for n in (1, 2, 4, 8)),
 )
 
