@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from docs.page import IMAGES, Page
-from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
 from gearlube.studies.film_model.draws import ANYWHERE
 from gearlube.studies.film_model.model_lines import limit_in_words
 from gearlube.studies.film_model.samples import axle_contacts
@@ -26,9 +26,9 @@ from gearlube_core.mesh_table.netcdf import shipped_mesh_table
 from gearlube_core.oil.oil_file import read_oil
 
 _WORDS = {
-    "axle": ("what the axle visits, not trained on", BLUE, "o"),
-    "pair": ("what the helical pairs visit, not trained on", BLUE, "o"),
-    "box": ("anywhere in the domain, not trained on", VERMILLION, "s"),
+    "axle": ("what the axle visits, not trained on", BLUE),
+    "pair": ("what the helical pairs visit, not trained on", BLUE),
+    "box": ("anywhere in the domain, not trained on", VERMILLION),
 }
 _NAMES = ("central film", "friction coefficient")
 
@@ -36,37 +36,6 @@ _NAMES = ("central film", "friction coefficient")
 def _back_first(kind: str) -> bool:
     """Draw the box behind what a machine visits."""
     return kind != "box"
-
-
-def parity_picture(tests: dict[str, dict[str, Array]]) -> Any:
-    """Return modelled over solved film and friction."""
-    columns = (
-        ("film_solved_m", "film_model_m", 1e9, "central film [nm]"),
-        ("friction_solved", "friction_model", 1.0, "friction coefficient [-]"),
-    )
-    from matplotlib.ticker import LogFormatter
-
-    with house_style():
-        figure = new_figure(9.0, 4.8)
-        for ax, (solved, model, unit, label) in zip(figure.subplots(1, 2), columns, strict=True):
-            for kind in sorted(tests, key=_back_first):
-                words, colour, marker = _WORDS[kind]
-                x, y = unit * tests[kind][solved], unit * tests[kind][model]
-                ax.plot(x, y, marker, color=colour, label=words, markersize=3.2, alpha=0.7, mew=0.0)
-            solutions = unit * np.concatenate([of[solved] for of in tests.values()])
-            ends = np.array([0.8 * solutions.min(), 1.25 * solutions.max()])
-            ax.plot(ends, ends, color=GREY, zorder=0, linewidth=1.0)
-            ax.set_xscale("log")
-            ax.set_yscale("log")
-            if unit > 1.0:
-                ax.xaxis.set_major_formatter(LogFormatter())
-                ax.yaxis.set_major_formatter(LogFormatter())
-            ax.set_xlabel(f"solved {label}")
-            ax.set_ylabel(f"model's {label}")
-        handles, labels = figure.axes[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=2)
-        figure.suptitle("A point is one contact; on the grey line model and solution agree")
-        return figure
 
 
 def errors_picture(errors: dict[str, tuple[Array, Array]], bounds: tuple[float, float]) -> Any:
@@ -78,7 +47,7 @@ def errors_picture(errors: dict[str, tuple[Array, Array]], bounds: tuple[float, 
             edges = np.linspace(-1.05 * most, 1.05 * most, 43)
             for kind in sorted(errors, key=_back_first):
                 filled = kind != "box"
-                words, colour, _ = _WORDS[kind]
+                words, colour = _WORDS[kind]
                 miss = errors[kind][n]
                 ax.hist(
                     miss,
@@ -194,12 +163,10 @@ def inside_shares(model: FilmModel) -> list[str]:
 
 
 def draw(model: FilmModel, tests: Tests, kinds: dict[str, str], name: str) -> None:
-    """Draw errors and modelled over solved numbers of kinds of contacts."""
+    """Draw the errors of kinds of contacts."""
     bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
     made = errors_picture({kinds[kind]: errors(tests[kind]) for kind in kinds}, bounds)
     made.savefig(IMAGES / f"{name}_errors.png", dpi=150)
-    made = parity_picture({kinds[kind]: tests[kind] for kind in kinds})
-    made.savefig(IMAGES / f"{name}_parity.png", dpi=150)
 
 
 def main() -> None:

@@ -1,31 +1,20 @@
 """The axle over the range of the oil's rheology: python -m docs.film_model.rheology.
 
 Mesh efficiency over the Eyring stress, by formula and solved, and where a limiting stress of the
-oil, which neither has, would bind. About a minute. Writes docs/images/film_model_rheology.png and
-a section of docs/film_model_axle.md.
+oil, which neither has, would bind. About a minute. Writes a section of docs/film_model_axle.md.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from docs.film_model.compare import axle_of, found
 from docs.film_model.outside_solves import OILS
-from docs.page import IMAGES, Page
+from docs.page import Page
 from drivetrain.axle_file.read_axle import read_axle
-from gearlube.plotting.style import (
-    BLUE,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    SKY,
-    VERMILLION,
-    house_style,
-    new_figure,
-)
 from gearlube.studies.film_model.plan import FilmPlan
 from gearlube.studies.film_model.samples import DOMAIN, axle_contacts
 from gearlube_core.arrays import Array
@@ -41,15 +30,12 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import kmh_to_ms
 
-FIGURE = IMAGES / "film_model_rheology.png"
 STRESSES = np.array([2.0, 3.0, 5.0, 7.0, 10.0])  # MPa
 SPEEDS = np.array([20.0, 60.0, 100.0])  # km/h
-TORQUES = np.array([20.0, 100.0, 300.0])  # N.m
-LIMITS = np.array([0.035, 0.05, 0.08])  # limiting stress over pressure [-]
+TORQUES = np.array([100.0])  # N.m
+LIMITS = np.array([0.035, 0.05])  # limiting stress over pressure [-]
 CONTACTS, SEED = 1500, 206
 _SMOOTH = 1e-8  # m, of flanks without asperities in touch
-_COLOURS = (GREEN, BLUE, VERMILLION)
-_LIMIT_COLOURS = (PURPLE, ORANGE, SKY)
 
 
 class Efficiency(NamedTuple):
@@ -137,50 +123,10 @@ def limit_rows(by_oil: dict[str, tuple[Array, Array, Array]]) -> list[list[str]]
     return rows
 
 
-def figure(made: Efficiency, by_oil: dict[str, tuple[Array, Array, Array]]) -> Any:
-    """Return efficiency over the Eyring stress, and where a limiting stress would bind."""
-    with house_style():
-        drawn = new_figure(9.0, 3.9)
-        left, right = drawn.subplots(1, 2)
-        middle = 1  # 100 N.m
-        for j, (speed, colour) in enumerate(zip(SPEEDS, _COLOURS, strict=True)):
-            left.plot(STRESSES, made.formula[:, j, middle], "--", color=colour)
-            y, bound = made.solved[:, j, middle], made.bound[:, j, middle]
-            left.plot(STRESSES, y, color=colour, label=f"{speed:g} km/h")
-            left.fill_between(STRESSES, y - bound, y + bound, color=colour, alpha=0.2, lw=0)
-        left.plot([], [], "k-", label="solved films")
-        left.plot([], [], "k--", label="formulas")
-        left.set_ylabel("efficiency of the mesh [%]")
-        left.set_title("Efficiency at 100 N·m, 95 °C")
-        left.legend(loc="lower left", fontsize=8)
-        highest = 0.0
-        for (name, (solved, _, weights)), line in zip(by_oil.items(), ("-", ":"), strict=True):
-            percent = 100.0 * shares(solved, weights)
-            highest = max(highest, float(percent.max()))
-            if percent.max() < 0.5:
-                right.plot(STRESSES, 0.0 * STRESSES, f"k{line}", label=f"{name}: 0 % throughout")
-                continue
-            for n, (limit, colour) in enumerate(zip(LIMITS, _LIMIT_COLOURS, strict=True)):
-                right.plot(STRESSES, percent[:, n], line, color=colour)
-                right.annotate(
-                    f"limit {limit:g} p", (10.0, percent[-1, n]), (0, 4), fontsize=8, color="0.2",
-                    textcoords="offset points", ha="right",
-                )  # fmt: skip
-            right.plot([], [], f"k{line}", label=name)
-        right.set_ylim(-2.0, 1.24 * highest)
-        right.set_ylabel("friction loss above the limit [%]")
-        right.set_title("Where a limit of stress over pressure would act")
-        right.legend(loc="upper left", fontsize=8)
-        for ax in (left, right):
-            ax.set_xlabel("Eyring stress [MPa]")
-    return drawn
-
-
 def main() -> None:
     """Compute all and write it."""
     made = efficiencies()
     by_oil = {name: frictions(name) for name in OILS}
-    figure(made, by_oil).savefig(FIGURE)
     page = Page("film_model_axle")
     page.rows("efficiency of the mesh [%], 95 °C", efficiency_rows(made))
     page.rows("share of the flanks' friction loss with", limit_rows(by_oil))

@@ -39,6 +39,7 @@ from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 SPEEDS, TORQUES, TEMPERATURES = (500.0, 1500.0, 3000.0), (20.0, 100.0, 300.0), (40.0, 80.0, 120.0)
+SHOWN = 100.0  # N.m, of the rows of the page; its ratios are of all torques
 LAWS: dict[str, str] = {
     "palmgren": "Palmgren",
     "zhou_hoeprich_1991": "Zhou and Hoeprich",
@@ -66,17 +67,17 @@ def put_losses(page: Page) -> None:
     """Put in drag by all laws, and bound and share outside of solved films."""
     found = {law: losses(law) for law in LAWS}
     solved, rows = found["solved_films"], []
+    k = TORQUES.index(SHOWN)
     for j, speed in enumerate(SPEEDS):
-        for k, torque in enumerate(TORQUES):
-            for i, temperature in enumerate(TEMPERATURES):
-                drags = [f"{one.power[i, j, k, _DRAG]:.0f}" for one in found.values()]
-                rows.append(
-                    [
-                        *(f"{speed:g}", f"{torque:g}", f"{temperature:g}", *drags),
-                        f"{solved.drag_bound[i, j, k]:.1f}",
-                        f"{100.0 * solved.rollers_outside[i, j, k]:.1f}",
-                    ]
-                )
+        for i, temperature in enumerate(TEMPERATURES):
+            drags = [f"{one.power[i, j, k, _DRAG]:.0f}" for one in found.values()]
+            rows.append(
+                [
+                    *(f"{speed:g}", f"{SHOWN:g}", f"{temperature:g}", *drags),
+                    f"{solved.drag_bound[i, j, k]:.1f}",
+                    f"{100.0 * solved.rollers_outside[i, j, k]:.1f}",
+                ]
+            )
     page.rows("rpm | N·m | oil, °C", rows)
     drag = {law: one.power[..., _DRAG] for law, one in found.items()}
 

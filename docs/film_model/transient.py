@@ -11,12 +11,11 @@ from __future__ import annotations
 import csv
 import io
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from docs.page import IMAGES, ROOT, Page
-from gearlube.plotting.style import BLUE, VERMILLION, house_style, new_figure
+from docs.page import ROOT, Page
 from gearlube.studies.film_model.samples import flank_contact_of
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
 from gearlube_core.arrays import Array
@@ -29,7 +28,6 @@ from gearlube_core.storage.atomic_file import write_text
 
 TABLE = Path(__file__).with_name("transient.csv")
 WORK = ROOT / "build" / "film_model_transient"  # marches, to go on from
-FIGURE = IMAGES / "film_model_transient.png"
 NODES, STEPS, STEADY = (129, 33), 48, 9
 _RPM_PER_KMH = 22.95
 MODEL = FilmModel.named("hypoid_flank")
@@ -182,35 +180,9 @@ def put(page: Page, found: dict[Engagement, Array]) -> None:
     )
 
 
-def figure(found: dict[Engagement, Array]) -> Any:
-    """Return the model's films and frictions over the engagement, at rest and with motion."""
-    with house_style():
-        made = new_figure(11.5, 5.6)
-        grid = made.subplots(2, len(found), sharey="row")
-        for (film, friction), (point, rows) in zip(grid.T, found.items(), strict=True):
-            c, changed = columns(rows), motion(rows)
-            inside = np.where(c["outside"] == 0.0, 1.0, np.nan)
-            pairs = ((film, 1e6 * c["film_model"]), (friction, c["friction_model"]))
-            for (axes, values), ratio in zip(pairs, changed, strict=True):
-                y = values * inside
-                axes.plot(c["phase"], y, color=BLUE, lw=2.6, label="film model (at rest)")
-                axes.plot(c["phase"], y * ratio, color=VERMILLION, label="with what motion changes")
-            film.set_title(point.words.replace(", ", "\n", 1), fontsize=9)
-            friction.set_xlabel("phase [mesh periods]")
-        grid[0, 0].set_ylabel("central film [µm]")
-        grid[1, 0].set_ylabel("friction coefficient\nof the film [-]")
-        for axes in grid[:, 0]:
-            axes.set_ylim(bottom=0.0)
-        handles, labels = grid[0, 0].get_legend_handles_labels()
-        made.legend(handles, labels, loc="outside lower center", ncol=2)
-        made.suptitle("Motion changes the film by a few per cent near the ends, friction hardly")
-    return made
-
-
 def main() -> None:
-    """Solve what is missing; write table, figure and page."""
+    """Solve what is missing; write table and page."""
     found = kept()
-    figure(found).savefig(FIGURE)
     page = Page("film_model_axle")
     put(page, found)
     page.write()
