@@ -137,7 +137,9 @@ class Page:
         names = self._names(after)
         if set(names) != set(found):
             raise ValueError(f"{self.path.name} has statements {names}, got {list(found)}")
-        self.cells(_STATEMENTS, [found[name] for name in names], after, first=4)
+        head = self.text[: self._body(_STATEMENTS, after)[0]].splitlines()[-2]
+        first = head[: head.index("| Found")].count("|")
+        self.cells(_STATEMENTS, [found[name] for name in names], after, first)
 
     def judged(self, claims: Claims, evidence: Any, after: str) -> None:
         """Judge statements; put in what was found and how many hold."""

@@ -30,6 +30,7 @@ from gearlube_core.helical_geometry.contact_line import (
     line_position,
     segment_length,
 )
+from gearlube_core.helical_geometry.iso_6336_stiffness import rack_dedendum_of
 from gearlube_core.helical_geometry.pair import HelicalPair
 from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
 from tests.helpers.helical_mesh_points import line_loads, load_sums
@@ -133,6 +134,11 @@ def line_lengths(phase: Array, lines: int | None = None) -> Array:
 def density() -> float:
     """Return the stiffness density of the pair's contact lines [N/m2]."""
     return float(he_2007_pair(0.0).mesh.density.mean())
+
+
+def own_density() -> tuple[str, str, str]:
+    """Return the density of `he_2007_pair`, and how deep the roots of both members are."""
+    return (f"{1e-9 * density():.2f}", *(f"{one:.3f}" for one in rack_dedendum_of(HE)))
 
 
 LINE_LOAD = PINION_TORQUE / HE.pinion_base_radius / HE.face_width  # N/m of face width

@@ -39,7 +39,7 @@ def _off_line(_: Evidence) -> Verdict:
     ratios = np.concatenate([at_orders(growth(name), *kept) for name in ("u_yp", "u_yg")])
     every = np.concatenate([growth(name) for name in ("u_yp", "u_yg")])
     return Verdict(
-        f"{ratios.min():.2f} to {ratios.max():.2f} times for ten times mu; all 15 orders "
+        f"{ratios.min():.2f} to {ratios.max():.2f} times; all 15 orders "
         f"{every.min():.1f} to {every.max():.1f}",
         judge(bool(np.abs(ratios - 10.0).max() < 0.1), bool(np.abs(ratios - 10.0).max() < 1.0)),
     )
@@ -58,15 +58,13 @@ def _along_line(_: Evidence) -> Verdict:
 
 @MOTION("H11")
 def _axial(_: Evidence) -> Verdict:
-    ratio, plane = growth("u_zp"), he_2007_pair(HIGH).pair.plane
+    ratio = growth("u_zp")
     resonance, first = at_orders(ratio, 7, 8, 9), at_orders(ratio, 1, 2)
-    expected = -steady(HIGH).signal("u_xp") * plane.sin_b / plane.cos_b
-    same = np.abs(steady(HIGH).signal("u_zp") / expected - 1.0).max()
     insensitive = bool(np.abs(resonance - 1.0).max() < 0.1) and first.min() > 5.0
     least = bool((np.abs(ratio - 1.0) < np.abs(growth("u_xp") - 1.0) - 1e-6)[2:].all())
     return Verdict(
         f"n = 7, 8, 9: {', '.join(f'{r:.3f}' for r in resonance)}; n = 1, 2: {first[0]:.1f}, "
-        f"{first[1]:.1f} times; u_zp = -u_xp tan b to {same:.0e}",
+        f"{first[1]:.1f} times",
         judge(insensitive and least, insensitive),
     )
 
@@ -75,13 +73,7 @@ def _axial(_: Evidence) -> Verdict:
 def _resonances(_: Evidence) -> Verdict:
     orders = natural_frequencies(linear_system(he_2007_pair(0.0))) * steady(0.0).period
     orders = orders / (2.0 * np.pi)
-    inside = orders[(orders > 8.0) & (orders < 10.0)]
-    return Verdict(
-        "natural frequencies at n = " + ", ".join(f"{n:.2f}" for n in orders),
-        CALIBRATED,
-        f"{inside.size} frequencies lie in 8 to 10. The paper does not print the stiffness of the "
-        "bearings; it was chosen to meet this statement.",
-    )
+    return Verdict("n = " + ", ".join(f"{n:.2f}" for n in orders), CALIBRATED)
 
 
 @MOTION("H13")
@@ -103,7 +95,6 @@ def _elastic_bearings(_: Evidence) -> Verdict:
     return Verdict(
         f"force over K u at most {largest:.4f}",
         judge(largest < 1.02 and float(np.max(offs)) < 1e-3),
-        f"The ratio is sqrt(1 + (2 zeta n f_m/f_0)^2) to {np.max(offs):.0e}, for n <= 15.",
     )
 
 
@@ -117,7 +108,7 @@ def _below_spur(_: Evidence) -> Verdict:
         least = min(least, float(ratios.min()))
         parts.append(f"{ratios[0]:.0f} / {ratios[1]:.0f} times at mu = {mu:g}")
     return Verdict(
-        "spur over helical, x / y of the pinion, peak to peak: " + ", ".join(parts),
+        "spur over helical, x / y: " + ", ".join(parts),
         judge(least > 10.0, least > 1.0),
     )
 
@@ -144,8 +135,6 @@ def _composites(_: Evidence) -> Verdict:
     return Verdict(
         "; ".join(f"{n}: n = 1, 2: {r[0]:.1f}, {r[1]:.1f} times" for n, r in ratios.items()),
         judge(second and first, second),
-        "Order n = 2 grows most of all. Of delta_y, "
-        f"n = {1 + int(np.argsort(ratios['delta_y'])[-2])} grows more than n = 1.",
     )
 
 
@@ -167,11 +156,10 @@ def _six_dof(_: Evidence) -> Verdict:
     found = {mu: max(six_against_twelve(mu).values()) for mu in (LOW, HIGH)}
     every = max(max(six_against_twelve(mu, ORDERS).values()) for mu in (LOW, HIGH))
     return Verdict(
-        "x, y of both members, n <= 6: within "
+        "x, y, n <= 6: within "
         + ", ".join(f"{100.0 * v:.1f} % (mu = {mu:g})" for mu, v in found.items()),
         judge(max(found.values()) < 0.1, max(found.values()) < 0.3),
-        f"For n <= 15 they agree within {100.0 * every:.0f} %. There axial motion takes part in "
-        "resonances.",
+        f"n <= 15: {100.0 * every:.0f} %",
     )
 
 
@@ -179,8 +167,7 @@ def _six_dof(_: Evidence) -> Verdict:
 def _crossing(_: Evidence) -> Verdict:
     ratio = growth("delta_z", rate=True)
     return Verdict(
-        f"n = 2 of its rate grows {ratio[1]:.2f} times, the others at most "
-        f"{np.delete(ratio, 1).max():.2f}",
+        f"n = 2 grows {ratio[1]:.2f} times, the others at most {np.delete(ratio, 1).max():.2f}",
         judge(bool(ratio[1] > 3.0), bool(np.argmax(ratio) == 1)),
     )
 

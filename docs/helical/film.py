@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -17,17 +16,12 @@ from docs.published_friction import schlenk, xu_kahraman
 from gearlube_core.arrays import Array
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, solid_parameters
-from gearlube_core.dynamics.helical_pair.linear.periodic_response import (
-    harmonics,
-    periodic_response,
-)
-from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
 from gearlube_core.friction.line_integrals import LineFrictionCycle, friction_along_lines
 from gearlube_core.friction.line_points import line_points, table_line_load, uniform_line_load
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.units import ZERO_CELSIUS
-from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE, he_2007_pair
+from tests.helpers.he_2007 import PINION_SPEED, PINION_TORQUE
 
 OIL, OIL_TEMPERATURE, SIGMA = "mohammadpour_2015", 353.15, 0.5e-6  # -, K, m
 RPM = math.pi / 30.0
@@ -69,7 +63,6 @@ def formula_rows() -> tuple[list[list[str]], tuple[str, ...]]:
     points += [(PINION_SPEED / RPM, T) for T in TEMPERATURES if T != OIL_TEMPERATURE]
     for rpm, T in points:
         found = cycle(rpm, T)
-        pressed = (_POINTS.length > 0.0) & (found.line_load > 0.0)
         here, formulas = found.mean_coefficient, (
             _schlenk(rpm, T), _mean_of(_xu_kahraman, rpm, T), _mean_of(_benedict_kelley, rpm, T),
         )  # fmt: skip
@@ -80,9 +73,6 @@ def formula_rows() -> tuple[list[list[str]], tuple[str, ...]]:
                 f"{T - ZERO_CELSIUS:.0f}",
                 *(f"{mu:.4f}" for mu in (here, *formulas)),
                 f"{1e6 * found.smallest_film.thickness:.2f}",
-                f"{found.film_ratio[pressed].min():.2f}",
-                f"{found.mean_power_loss:.0f}",
-                f"{100.0 * found.efficiency:.2f}",
             ]
         )
     ends = [end for both in zip(*ratios, strict=True) for end in (min(both), max(both))]
@@ -108,66 +98,24 @@ def along_row(mesh: LineMesh | None) -> list[str]:
     ]
 
 
-def moved_rows(orders: int = 4) -> list[list[str]]:
-    """Return mesh orders [nm] with the constant coefficient of the same loss, and with the film."""
-    film = FilmFriction(
-        oil=Lubricant.named(OIL),
-        oil_temperature=OIL_TEMPERATURE,
-        solid=STEEL_MOHAMMADPOUR_2015,
-        roughness_rms=SIGMA,
-    )
-    mu = cycle(PINION_SPEED / RPM, OIL_TEMPERATURE).mean_coefficient
-    constant = periodic_response(he_2007_pair(mu), PINION_SPEED)
-    own = periodic_response(replace(he_2007_pair(0.0), friction="film", film=film), PINION_SPEED)
-    rows = []
-    for name in ("u_xp", "u_yp", "delta_z"):
-        both = (harmonics(one.signal(name), orders) for one in (constant, own))
-        rows.append([f"{1e9 * c:.2f} / {1e9 * f:.2f}" for c, f in zip(*both, strict=True)])
-    return rows
+def stable_words(stability: xr.Dataset) -> tuple[str, ...]:
+    """Return the least variation with the pair's and with light damping, and the largest ratio.
 
-
-def instability_rows(stability: xr.Dataset) -> list[list[str]]:
-    """Return where the mesh's variation alone makes the pair unstable."""
-    rows = []
+    At these the mesh's variation alone makes the pair unstable; the last is the mesh frequency
+    [Hz] at the first.
+    """
+    found, frequency = [], 0.0
     for name, axis in (
         ("growth_variation", "variation"),
         ("growth_variation_light", "variation"),
         ("growth_damping", "damping_ratio"),
     ):
-        growth, values = stability[name].values, stability[axis].values
-        unstable = growth > 0.0
-        some = unstable.any(axis=1)
-        if not some.any():
-            rows.append([axis.replace("_", " "), "stable throughout", "-", "-"])
-            continue
-        at = int(np.flatnonzero(some)[0 if axis == "variation" else -1])
-        frequency = float(stability["mesh_frequency"][int(growth[at].argmax())])
-        word = "least factor" if axis == "variation" else "largest ratio"
-        rows.append(
-            [
-                axis.replace("_", " "),
-                f"{word} {values[at]:.3g}; {100.0 * unstable.mean():.1f} % of the map",
-                f"{frequency:.0f}",
-                _nearest(frequency, stability["natural_frequency"].values),
-            ]
-        )
-    return rows
-
-
-def _nearest(frequency: float, modes: np.ndarray) -> str:
-    """Return the nearest (f_i + f_j)/k in words, with its distance."""
-    best = min(
-        (
-            (abs((modes[i] + modes[j]) / k / frequency - 1.0), i, j, k)
-            for k in (1, 2)
-            for i in range(modes.size)
-            for j in range(i, modes.size)
-        ),
-        key=lambda found: found[0],
-    )
-    off, i, j, k = best
-    sum_of = f"2 f_{i + 1}" if i == j else f"f_{i + 1} + f_{j + 1}"
-    return f"{sum_of if k == 1 else f'({sum_of})/{k}'}, {100.0 * off:.1f} % off"
+        growth = stability[name].values
+        some = np.flatnonzero((growth > 0.0).any(axis=1))
+        at = int(some[0 if axis == "variation" else -1])
+        found.append(f"{stability[axis].values[at]:.3g}")
+        frequency = frequency or float(stability["mesh_frequency"][int(growth[at].argmax())])
+    return (*found, f"{frequency:.0f}")
 
 
 def _viscosity(temperature: float) -> float:

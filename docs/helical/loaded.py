@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +21,6 @@ from gearlube_core.helical_geometry.modification import (
     ModifiedPair,
     TipRelief,
 )
-from gearlube_core.helical_geometry.pair import HelicalPair
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.tooth_compliance.flank_compliance import CondensationSettings
 from gearlube_core.tooth_compliance.tooth_mesh import MeshDensity
@@ -33,7 +31,6 @@ PLAIN = ModifiedPair(pair=HE)
 CROWN = 4e-6  # m, on both members
 CROWNED_TORQUES = (25.0, 50.0, 100.0, PINION_TORQUE, 450.0)  # N.m
 SPUR_TORQUES = (25.0, 50.0, 100.0, 160.0, PINION_TORQUE, 300.0)
-NEAR_TORQUES = (160.0, PINION_TORQUE, 300.0)
 RELIEF, RELIEF_EXTENT = 15e-6, 1.5e-3  # m
 COARSE = CondensationSettings(
     profile_hats=4,
@@ -57,16 +54,6 @@ def crowned(store: Path) -> tuple[xr.Dataset, LineMesh]:
     settings = CycleSettings(torques=CROWNED_TORQUES, positions=12)
     record = run_cycle(modified, pair_stiffness(HE, HelicalBodySettings()), settings, store=store)
     return contact_dataset(modified, settings, record), line_mesh(modified, settings, record)
-
-
-def table_of_torques(
-    pair: HelicalPair, condensation: CondensationSettings, store: Path
-) -> LineMesh:
-    """Return the line mesh of a pair with plain flanks, at torques around that of the paper."""
-    modified = ModifiedPair(pair=pair)
-    settings = CycleSettings(torques=NEAR_TORQUES, positions=16)
-    teeth = pair_stiffness(pair, HelicalBodySettings(condensation=condensation))
-    return line_mesh(modified, settings, run_cycle(modified, teeth, settings, store=store))
 
 
 def spur_harris(store: Path) -> dict[str, xr.Dataset]:
@@ -101,19 +88,6 @@ def bodies() -> list[Stiffness]:
     ]
 
 
-def refinements() -> list[Stiffness]:
-    """Return stiffness by default, with finer cells, with finer elements and hats, and coarse."""
-    body = HelicalBodySettings()
-    finer = replace(body.condensation, profile_hats=9, density=MeshDensity(profile=16))
-    cells = LoadedSettings(strips=StripSettings(cells_across=61, cells_along=96))
-    return [
-        _stiffness(body, LoadedSettings()),
-        _stiffness(body, cells),
-        _stiffness(replace(body, condensation=finer), LoadedSettings()),
-        _stiffness(replace(body, condensation=COARSE), LoadedSettings()),
-    ]
-
-
 def _stiffness(body: HelicalBodySettings, settings: LoadedSettings) -> Stiffness:
     """Return means of three phases, along the line of action."""
     teeth = pair_stiffness(HE, body)
@@ -125,56 +99,6 @@ def _stiffness(body: HelicalBodySettings, settings: LoadedSettings) -> Stiffness
     secant, tangent, share = np.mean(rows, axis=0)
     arm = HE.pinion_base_radius
     return float(secant / arm**2), float(tangent / arm**2), float(share)
-
-
-def stiffness_rows(found: Sequence[Stiffness]) -> list[list[str]]:
-    """Return stiffness with other cells and elements, and how far it is from the first."""
-
-    def cell(k: int, value: float, form: str) -> str:
-        off = value / found[0][k] - 1.0
-        return form.format(value if k == 2 else 1e-6 * value) + (
-            f" ({100.0 * off:+.2f} %)" if off else ""
-        )
-
-    return [
-        [cell(0, secant, "{:.1f}"), cell(1, tangent, "{:.1f}"), cell(2, share, "{:.4f}")]
-        for secant, tangent, share in found
-    ]
-
-
-def sharing_rows(contact: xr.Dataset) -> list[list[str]]:
-    """Return where shares of torque and of length differ, on stretches of a pair's way; means."""
-    age = contact["line"].values[None, :] + contact["phase"].values[:, None]
-    share, length = contact["share"].values, contact["length_share"].values
-    carries = (share > 0.0) | (length > 0.0)
-    plane = HE.plane
-    full = plane.W * plane.sin_b / plane.cos_b / plane.pitch  # line across the whole face
-    leaving = (plane.D - plane.A) / plane.pitch
-    end = leaving + full
-    stretches = (
-        ("before it enters: tip corner", -1.0, -1e-9),
-        ("entering", -1e-9, full),
-        ("across the whole face", full, leaving),
-        ("leaving", leaving, end),
-        ("after it left: tip corner", end, age.max() + 1.0),
-    )
-    found = []
-    for words, low, high in stretches:
-        rows = carries & (age >= low) & (age < high)
-        if not rows.any():
-            continue
-        off = (share - length)[rows]
-        worst = int(np.abs(off).argmax())
-        found.append(
-            [
-                words,
-                f"{100.0 * share[rows].mean():.1f}",
-                f"{100.0 * length[rows].mean():.1f}",
-                f"{100.0 * off[worst]:+.1f}",
-                f"{age[rows][worst]:.2f}",
-            ]
-        )
-    return found
 
 
 def torque_rows(contact: xr.Dataset) -> list[list[str]]:
@@ -192,9 +116,7 @@ def torque_rows(contact: xr.Dataset) -> list[list[str]]:
                 f"{1e-6 * float(at['K_tangent'].mean()):.0f}",
                 f"{mean / standard:.3f}",
                 f"{C_M * mean / standard:.3f}",
-                f"{100.0 * float(np.ptp(at['K'].values) / mean):.1f}",
                 f"{1e6 * float(at['transmission_error_ptp']):.2f}",
-                f"{100.0 * float(at['corner_share'].max()):.1f}",
                 f"{100.0 * float(np.abs(off.values).max()):.1f}",
             ]
         )

@@ -1,8 +1,8 @@
 """Put numbers into docs/helical.md and draw its pictures: python -m docs.helical.make [workdir].
 
-Under two minutes on two cores; about fifteen the first time, until the elastic teeth of all
-refinements and helix angles lie in the cache. Finished positions of the loaded contact and rows
-of the maps are kept in the folder given as argument, by default build/helical.
+Under two minutes on two cores, longer until all elastic teeth lie in the cache. Finished positions
+of the loaded contact and rows of the maps are kept in the folder given as argument, by default
+build/helical.
 """
 
 from __future__ import annotations
@@ -14,35 +14,28 @@ from pathlib import Path
 
 import numpy as np
 
-from docs.helical.cases import HIGH, LOW, Evidence, density, steady
+from docs.helical.cases import HIGH, Evidence, density, own_density, steady
 from docs.helical.claims_mesh import MESH
 from docs.helical.claims_motion import MOTION
-from docs.helical.claims_thesis import THESIS, decisions
-from docs.helical.closed_forms import zone_differences
-from docs.helical.film import along_row, formula_rows, instability_rows, moved_rows
+from docs.helical.claims_thesis import THESIS
+from docs.helical.film import along_row, formula_rows, stable_words
 from docs.helical.loaded import (
     bodies,
     crowned,
     error_rows,
     iso_words,
-    refinements,
-    sharing_rows,
     spur_harris,
-    stiffness_rows,
     torque_rows,
 )
-from docs.helical.loaded_claims import loaded_claims_rows
+from docs.helical.loaded_claims import loaded_claims_rows, table_density
 from docs.helical.separation import (
     branch_rows,
     crowned_curves,
-    parting,
     plain_curves,
     separation_figure,
 )
-from docs.helical.stiffness_density import choice_rows, own_density, table_density
-from docs.helical.structure import SAMPLE, sample_stiffness, six_against_twelve, spur_limit
 from docs.page import IMAGES, Claims, Page, begin
-from gearlube.studies.helical.figures.catalogue import GEOMETRY_CATALOGUE, HELICAL_CATALOGUE
+from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.stages import HelicalResults
@@ -60,14 +53,9 @@ TORQUES = (25.0, 50.0, 100.0, 160.0, PINION_TORQUE, 300.0, 450.0)  # N.m
 
 
 # words of the page before the counts of statements
-HE_CLAIMS = "*order* only which value is larger, *shape* only how a curve rises and falls."
-THESIS_CLAIMS = "and are not on this page."
-REFINED = "tests/convergence/test_helical_contact_refinement.py."
-PICTURES = (
-    "tooth_stiffness_loaded", "load_sharing", "harris_map", "displacements", "composites",
-    "friction_harmonics", "instability", "film_on_lines", "film_over_mesh",
-)  # fmt: skip
-THESIS_PICTURES = ("lines_relieved", "lay_angles")
+HE_CLAIMS = 'n is the mesh order, "times" the growth from mu = 0.01 to 0.1.'
+THESIS_CLAIMS = "Designs A (33:34) and B (33:99) of Table 4.1; films: [ehl](ehl.md)."
+PICTURES = ("tooth_stiffness_loaded", "displacements", "instability", "film_on_lines")
 
 
 def study(store: Path) -> HelicalResults:
@@ -131,36 +119,19 @@ def main(work: Path) -> None:
     evidence = Evidence(contact=at_load)
     page.judged(Claims(MESH | MOTION), evidence, HE_CLAIMS)
     page.judged(THESIS, evidence, THESIS_CLAIMS)
-    page.cells("# | What would have to be other", decisions())
-    zones = [[*(f"{one:.0e}" for one in zone[:3]), f"{100.0 * zone[3]:.0f} %"]
-             for zone in zone_differences()]  # fmt: skip
-    page.cells("Zone of eq. (24)", zones, first=1)
-    page.cells("Helix angle, deg", [[f"{off:.1e}"] for off in spur_limit()], first=1)
-    forms = [six_against_twelve(mu).values() for mu in (LOW, HIGH)]
-    page.cells("mu | u_xp", [[f"{100.0 * off:.1f} %" for off in one] for one in forms], first=1)
-    sample = [
-        [f"{here:.{len(printed.partition('.')[2])}f}", f"{here / float(printed) - 1.0:+.0e}"]
-        for printed, here in zip(SAMPLE, sample_stiffness(), strict=True)
-    ]
-    page.cells("ISO/TR 6336-30:2017, example 1", sample)
-    page.cells("Choice | z_n", choice_rows(), first=1)
     page.fill(
-        "`he_2007_pair` has k = {} N/(mm um), that of: own roots, z_n = z/(cos2(beta_b) "
-        "cos(beta)). The pair's own roots lie {} and {} normal modules",
+        "`he_2007_pair` has k = {} N/(mm um): the pair's own roots lie {} and {} normal modules",
         *own_density(),
     )
     printed_forms(page)
     logger.info("loaded contact")
     crowned_contact, crowned_mesh = crowned(store)
-    spur, ends = spur_harris(store), bodies()
-    page.fill("At 226 N.m it is {} of it, times C_M {}: {} the scatter and the {} % of the body.",
-              *iso_words(contact, PINION_TORQUE, ends))  # fmt: skip
+    spur = spur_harris(store)
+    page.fill("At 226 N.m the mean stiffness is {} of it, times C_M {}: {} the scatter and the {} "
+              "% of the body.", *iso_words(contact, PINION_TORQUE, bodies()))  # fmt: skip
     tangent = 1e-9 * table_density(done.mesh, PINION_TORQUE)
     page.fill("The lines' mean tangent density there is {} N/(mm um).", f"{tangent:.2f}")
     page.rows("Pinion torque, N.m", torque_rows(contact))
-    page.rows("One pair of teeth", sharing_rows(at_load))
-    page.cells("Plain pair", stiffness_rows(refinements()), REFINED, first=1)
-    page.cells("Plain pair", stiffness_rows(ends), "| coarse: 4 x 7 hats |", first=1)
     every = (contact, crowned_contact, spur["plain"], spur["relieved"])
     page.cells("Error, p-p, um", error_rows(every), first=1)
     logger.info("film friction")
@@ -168,26 +139,20 @@ def main(work: Path) -> None:
     means, ranges = formula_rows()
     page.rows("rpm | oil, degC", means)
     page.fill("Here over Schlenk {} to {}, over Xu and Kahraman {} to {}.", *ranges)
-    page.cells("nm, constant mu", moved_rows(), first=1)
-    page.cells("Map | axis", instability_rows(datasets["stability"]), first=1)
+    page.fill(
+        "variation is {} times as large, with 1 % damping at {} times, or if the damping ratio is "
+        "below {}. This happens at a mesh frequency of {} Hz,",
+        *stable_words(datasets["stability"]),
+    )
     logger.info("tooth separation")
     plain, crowns = plain_curves(), crowned_curves(crowned_mesh)
     page.cells("Flanks | f_n", branch_rows([*plain, *crowns]), first=1)
-    page.fill(
-        "With damping ratios of {} no line of the plain pair lifts off at any speed shown; with {} "
-        "it loses contact at its resonance; with {} two stable motions",
-        *parting(plain),
-    )
-    logger.info("other helix angles")
-    page.cells("| one density, ISO 6336-1", loaded_claims_rows(store), first=1)
+    page.cells("Value | one density, ISO 6336-1", loaded_claims_rows(), first=1)
     page.write()
     logger.info("pictures")
     for name in PICTURES:
         one = HELICAL_CATALOGUE[name]
         one.draw(datasets[one.needs]).savefig(IMAGES / f"helical_{name}.png", dpi=110)
-    pairs = [data for name, data in datasets.items() if name.startswith("geometry_")]
-    for name in THESIS_PICTURES:
-        GEOMETRY_CATALOGUE[name](pairs).savefig(IMAGES / f"helical_{name}.png", dpi=110)
     panels = [("plain flanks, µ = 0.1", plain), ("crowned flanks, ζ = 0.02", crowns)]
     separation_figure(panels).savefig(IMAGES / "helical_separation.png", dpi=150)
 

@@ -62,11 +62,6 @@ class Curve:
         """What is different about it, short."""
         return f"{self.torque:.0f} N·m" if self.crowned else f"ζ = {self.damping:g}"
 
-    def special(self, kind: str) -> list[float]:
-        """Return the relative frequencies of folds or bifurcations, rising."""
-        unit = self.branch.parameter[0] / self.relative[0]
-        return sorted(p.parameter / unit for p in self.branch.special if p.kind == kind)
-
     def span(self, share: Array) -> tuple[float, float] | None:
         """Return the lowest and highest frequency at which a share is above zero."""
         where = self.relative[share > 0.0]
@@ -150,12 +145,8 @@ def branch_rows(curves: Sequence[Curve]) -> list[list[str]]:
             [
                 f"{c.natural_frequency:.0f}",
                 f"{UM * c.swing[top]:.1f} at {c.relative[top]:.3f}",
-                f"{UM * float(c.linear[:, 1].max()):.1f}",
-                _span(c.span(c.lifted)),
                 _span(c.span(c.apart)),
                 f"{100.0 * float(c.apart.max()):.0f}",
-                _places(c.special("fold")),
-                _places(c.special("period doubling")),
                 f"{UM * two:.1f}" if two > 0.0 else "none",
             ]
         )
@@ -164,19 +155,6 @@ def branch_rows(curves: Sequence[Curve]) -> list[list[str]]:
 
 def _span(span: tuple[float, float] | None) -> str:
     return "never" if span is None else f"{span[0]:.2f} to {span[1]:.2f}"
-
-
-def _places(places: Sequence[float]) -> str:
-    return ", ".join(f"{p:.3f}" for p in places) or "none"
-
-
-def parting(curves: Sequence[Curve]) -> tuple[str, str, str]:
-    """Return the damping ratios that keep contact, that lose it, and that have two motions."""
-    keeps = [c.damping for c in curves if c.lifted.max() == 0.0]
-    parts = [c.damping for c in curves if c.apart.max() > 0.0]
-    folds = [c.damping for c in curves if overhang(c) > 0.0]
-    ratios = (", ".join(f"{one:g}" for one in some) for some in (keeps, parts, folds))
-    return (next(ratios) or "none of these", next(ratios) or "none", next(ratios) or "none")
 
 
 def separation_figure(curves: Sequence[tuple[str, Sequence[Curve]]]) -> Any:

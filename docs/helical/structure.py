@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from docs.helical.cases import (
@@ -14,19 +12,15 @@ from docs.helical.cases import (
     pressed_points,
     random_state,
     steady,
-    steady_with_helix,
 )
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import harmonics
 from gearlube_core.dynamics.helical_pair.mesh.contact_points import SLIDING, X
 from gearlube_core.helical_geometry.contact_line import line_kinematics
-from gearlube_core.helical_geometry.iso_6336_stiffness import iso_stiffness, virtual_teeth
-from gearlube_core.helical_geometry.pair import HelicalPair
 from tests.helpers.he_2007 import he_2007_pair
 from tests.helpers.helical_mesh_points import mesh_stiffness_matrix
 
 PHASES = np.linspace(0.0, 0.99, 34)
 MUS = (0.0, LOW, HIGH, 0.3)
-SMALL_HELIX = (1.0, 0.1, 0.01)  # deg
 TRANSVERSE = ("u_xp", "u_yp", "u_xg", "u_yg")
 
 
@@ -90,13 +84,6 @@ def sliding_reversal() -> tuple[float, bool]:
     return ratio, True
 
 
-def spur_limit() -> list[float]:
-    """Return how far delta_z is from the spur pair's at SMALL_HELIX, mu = 0.1 [-]."""
-    spur = steady_with_helix(HIGH, 0.0).signal("delta_z")
-    near = (steady_with_helix(HIGH, math.radians(angle)).signal("delta_z") for angle in SMALL_HELIX)
-    return [float(np.sqrt(np.mean((one - spur) ** 2)) / np.ptp(spur)) for one in near]
-
-
 def six_against_twelve(mu: float, orders: int = 6) -> dict[str, float]:
     """Return by translation the largest relative difference of mesh orders 1 to `orders`."""
     six, twelve = steady(mu, "six_dof"), steady(mu)
@@ -108,32 +95,3 @@ def six_against_twelve(mu: float, orders: int = 6) -> dict[str, float]:
         )
         for name in TRANSVERSE
     }
-
-
-# ISO/TR 6336-30:2017, example 1, as printed: 17:103, 8 mm, 15.8 degrees, x1 = 0.145, rack D
-# virtual teeth, and stiffnesses [N/(mm um)]
-SAMPLE = ("18.905", "114.543", "17.85584", "12.37047", "17.46485", "14.84512")
-_SAMPLE_LOAD = 127352.0 / 0.1  # N/m
-
-
-def sample_stiffness() -> tuple[float, ...]:
-    """Return virtual teeth and stiffnesses [N/(mm um)] of the published example, as SAMPLE."""
-    module, helix = 8e-3, math.radians(15.8)
-    radius = 0.5 * module / math.cos(helix)
-    pair = HelicalPair(
-        name="ISO/TR 6336-30, example 1",
-        pinion_teeth=17,
-        gear_teeth=103,
-        normal_module=module,
-        normal_pressure_angle=math.radians(20.0),
-        helix_angle=helix,
-        centre_distance=0.5,
-        pinion_tip_radius=17 * radius + 1.145 * module,
-        gear_tip_radius=103 * radius + module,
-        pinion_root_radius=17 * radius - (1.4 - 0.145) * module,
-        gear_root_radius=103 * radius - 1.4 * module,
-        face_width=0.1,
-    )
-    found = iso_stiffness(pair, line_load=_SAMPLE_LOAD)
-    stiffness = (found.theoretical, found.single, found.mesh, found.lead)
-    return (*virtual_teeth(pair), *(1e-9 * v for v in stiffness))

@@ -1,7 +1,7 @@
 """Optimise the shipped problems for docs/optimise.md: python -m docs.optimise.make FOLDER [NAME].
 
-Some minutes for each. The results are kept in FOLDER, where a run that
-was stopped goes on. Figures go to docs/images, tables to this folder; then the page is written.
+Some minutes for each. Results are kept in FOLDER, where a run that was stopped goes on. Figures go
+to docs/images, tables to this folder; then the page is written.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 
 from docs.optimise.page import HERE
 from docs.optimise.page import main as write_page
-from docs.page import IMAGES
+from docs.page import IMAGES, Page
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.optimise.dataset import measure_rows, unit_of
 from gearlube.studies.optimise.figures import save_optimise_figures
@@ -21,8 +21,6 @@ from gearlube_core.flank_optimisation.optimise import Optimised, OptimiseSetting
 from gearlube_core.flank_optimisation.problem import values_of
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
 from gearlube_core.storage.atomic_file import write_text
-
-SHOWN = ("transmission_error", "errors", "front")
 
 
 def make(name: str, folder: Path) -> None:
@@ -33,13 +31,13 @@ def make(name: str, folder: Path) -> None:
     results = run_optimise(given, settings, folder=folder / name)
     found = results.optimised
     write_text(_measures(found), HERE / f"{name}.csv")
-    write_text(_values(found), HERE / f"{name}_values.csv")
-    if found.front:
+    if name == "helical":
+        write_text(_values(found), HERE / f"{name}_values.csv")
+    if hypoid:
         rows = [(f"{one.whine:.4f}", f"{one.loss:.4f}") for one in found.front]
         write_text(csv_text(("whine", "loss"), rows), HERE / f"{name}_front.csv")
-    (IMAGES / f"optimise_{name}_front.png").unlink(missing_ok=True)
     for path in save_optimise_figures(results.dataset, folder / name / "figures"):
-        if path.stem in SHOWN and (path.stem != "front" or len(found.front) > 2):
+        if f"optimise_{name}_{path.name}" in Page("optimise").text:
             shutil.copy(path, IMAGES / f"optimise_{name}_{path.name}")
 
 

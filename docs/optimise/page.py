@@ -12,26 +12,29 @@ HERE = Path(__file__).resolve().parent
 CHAPTERS = {
     "helical": "## A helical pair: relief and crown",
     "helical_plain": "## A helical pair without modifications",
-    "hypoid": "## A hypoid pair: settings, crowns, twist and tip relief",
+    "hypoid": "## A hypoid pair: settings, crowns, relief",
 }
+SHOWN = (
+    "all orders", "all orders, root mean square over errors", "sensitivity to errors",
+    "highest pressure", "sliding loss over friction coefficient",
+    "mesh orders of the force over its mean", "highest pressure, coast flanks",
+)  # fmt: skip
 
 
 def main() -> None:
     """Write the page."""
     page = Page("optimise")
     for name, chapter in CHAPTERS.items():
-        values = (
-            [f"`{row['field']}`", row["before"] or "-", row["after"],
-             f"{row['low']} to {row['high']}", row["unit"]]
-            for row in _rows(f"{name}_values")
-        )  # fmt: skip
-        page.rows("Field | Before", values, chapter)
-        measures = ([one or "-" for one in row.values()] for row in _rows(name))
-        page.rows("Torque [N.m] | | Unit", measures, chapter)
-        front = HERE / f"{name}_front.csv"
-        if front.is_file() and len(_rows(front.stem)) > 1:
-            rows = ([row["whine"], row["loss"]] for row in _rows(front.stem))
-            page.rows("Mesh orders | Loss", rows, chapter)
+        shown = (row for row in _rows(name) if row["what"] in SHOWN)
+        page.rows("Torque [N.m] | | Unit", ([one or "-" for one in row.values()] for row in shown),
+                  chapter)  # fmt: skip
+    values = (
+        [f"`{row['field']}`", row["before"] or "-", row["after"],
+         f"{row['low']} to {row['high']}", row["unit"]]
+        for row in _rows("helical_values")
+    )  # fmt: skip
+    page.rows("Field | Before", values)
+    page.rows("Mesh orders | Loss", (list(row.values()) for row in _rows("hypoid_front")))
     page.write()
 
 

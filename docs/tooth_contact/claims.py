@@ -64,10 +64,6 @@ def radii_vary_little(dataset: xr.Dataset) -> Verdict:
     return Verdict(
         "; ".join(parts) + f" at {' / '.join(f'{t:g}' for t in torques)} N.m",
         judge(not failing, len(failing) < len(torques)),
-        f"The radii vary by more than 2 % at {', '.join(failing)} N.m of drive torque. There one "
-        "pair carries alone over much of the period, and its contact walks along the face."
-        if failing
-        else "Pairs that share the load average out the walk of each contact.",
     )
 
 
@@ -129,13 +125,10 @@ def radius_course(dataset: xr.Dataset) -> Verdict:
     good = {s: rises_then_falls(course) for s, course in courses.items()}
     coast = courses["coast"]
     dip = 100.0 * (1.0 - coast[: np.argmax(coast)].min() / coast[0])
-    minor = 1e3 * pair_course(dataset, "R_x", "drive")
     return Verdict(
         "; ".join(f"{s} {c[0]:.0f}, {c.max():.0f}, {c[-1]:.0f} mm" for s, c in courses.items()),
         judge(all(good.values()), good["drive"]),
-        "The values are those at entry, the highest, and those at exit, along the sliding "
-        f"direction at 50 N.m. On the coast side the radius first falls by {dip:.0f} %. Along the "
-        f"minor axis it goes steadily from {minor[0]:.0f} to {minor[-1]:.0f} mm on the drive side.",
+        f"entry, highest, exit; on coast it first falls by {dip:.0f} %",
     )
 
 
@@ -181,7 +174,7 @@ def ratio_on_average(dataset: xr.Dataset) -> Verdict:
     off = {t: 100.0 * np.abs(quotient.sel(torque=t).values) for t in (LOAD, _torques(dataset)[-1])}
     texts = [f"{v[0]:.3f} / {v[1]:.3f} % at {t:g} N.m" for t, v in off.items()]
     return Verdict(
-        "mean over the period off by " + ", ".join(texts) + " (drive / coast)",
+        "off by " + ", ".join(texts) + " (drive / coast)",
         judge(float(off[LOAD].max()) < 0.1),
     )
 

@@ -50,23 +50,6 @@ def highest_pressure(dataset: xr.Dataset, side: str, torque: float = LOAD) -> fl
     return float(dataset["pressure_max"].sel(side=side, torque=torque).max())
 
 
-def extreme_height(dataset: xr.Dataset, side: str) -> float | None:
-    """Return the gear's profile position [-] of the error's extreme; None where it has none.
-
-    An extreme at an end of the path is none: contact then jumps from edge to edge.
-    """
-    part = dataset.sel(side=side)
-    sign = 1.0 if side == "drive" else -1.0
-    error = sign * part["path_error"].values
-    on_teeth = np.flatnonzero(np.isfinite(error))
-    if on_teeth.size == 0:
-        return None
-    at = int(np.nanargmin(error))
-    if at in (on_teeth[0], on_teeth[-1]):
-        return None
-    return float(part["path_s"].values[at])
-
-
 def pair_course(dataset: xr.Dataset, name: str, side: str, torque: float = LOAD) -> Array:
     """Return a variable over one pair's contact, entry to exit, where the pair carries."""
     state = dataset.sel(side=side, torque=torque)

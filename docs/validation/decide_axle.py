@@ -108,17 +108,15 @@ def decisions() -> list[tuple[str | None, str]]:
     return [
         (
             None,
-            f"The first {RECORD:g} s, from shafts that the load has not yet displaced: "
-            f"{from_start} % at {words} km/h (asked: 10)",
+            f"first {RECORD:g} s from unloaded shafts: {from_start} % at {words} km/h (asked: 10)",
         ),
         (
             f"{from_start} % at 2500 N and {more} % at 6000 N, {words} km/h, with the start",
-            "Above 100 %. At 100 km/h, with the damping of the bearings times "
-            f"{factors}: {lower} %",
+            f"above 100 %; at 100 km/h, bearing damping times {factors}: {lower} %",
         ),
         (
-            f"2500 N: all rollers stay loaded up to {max(speeds):g} km/h, but not above",
-            f"{round(preload_needed(SPEEDS[-1]), -2):.0f} N at {SPEEDS[-1]:g} km/h. Of the "
+            f"2500 N: rollers stay loaded up to {max(speeds):g} km/h",
+            f"{round(preload_needed(SPEEDS[-1]), -2):.0f} N at {SPEEDS[-1]:g} km/h; of the "
             "damping times " + " / ".join(f"{f:g}" for f in _DAMPINGS) + f": {damping}",
         ),
     ]
