@@ -26,8 +26,8 @@ def main() -> None:
     page = Page("optimise")
     for name, chapter in CHAPTERS.items():
         shown = (row for row in _rows(name) if row["what"] in SHOWN)
-        page.rows("Torque [N.m] | | Unit", ([one or "-" for one in row.values()] for row in shown),
-                  chapter)  # fmt: skip
+        names = ("torque", "what", "unit", "before", "after", "change")
+        page.rows("Torque [N.m] | | Unit", ([row[n] for n in names] for row in shown), chapter)
     values = (
         [f"`{row['field']}`", row["before"] or "-", row["after"],
          f"{row['low']} to {row['high']}", row["unit"]]

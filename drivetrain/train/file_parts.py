@@ -171,15 +171,13 @@ class HousingModel(Section):
     mass_file: Text | None = Field(
         default=None, description="Mass, where model_file has the stiffness alone"
     )
-    damping_file: Text | None = Field(default=None, description="Damping, likewise")
+    damping_file: Text | None = Field(default=None, description="Damping, beside mass_file")
     node_table: Text | None = Field(
         default=None,
         description="Table of nodes (.csv): node, name, x, y, z; not for .npz",
     )
-    length_unit: Length = Field(default="m", description="Of matrices and node_table")
-    mass_unit: Mass = Field(
-        default="kg", description="Of matrices; t where the stiffness is in N/mm"
-    )
+    length_unit: Length = Field(default="m", description="Length unit of matrices and node_table")
+    mass_unit: Mass = Field(default="kg", description="Mass unit of matrices; t with N/mm")
 
     def read(self) -> ReducedModel:
         """Return the model."""

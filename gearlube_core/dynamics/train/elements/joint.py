@@ -172,12 +172,12 @@ class Joint(Springs, Element):
     first: str
     second: str
     radius: Annotated[
-        float, Number("m", 0.0, 10.0, text="From the axis of the second body", shown="mm")
+        float, Number("m", 0.0, 10.0, text="Distance from the second body's axis", shown="mm")
     ] = 0.0
     azimuth: Annotated[
         float,
         Number(
-            "rad", -2.0 * math.pi, 2.0 * math.pi, text="Of its x axis, from x towards y",
+            "rad", -2.0 * math.pi, 2.0 * math.pi, text="Azimuth of its x axis, x towards y",
             shown="deg",
         ),
     ] = 0.0  # fmt: skip

@@ -176,7 +176,7 @@ class Motor(Port):
 
     stator: str = GROUND
     bandwidth: Annotated[
-        float, Number("Hz", 0.0, 1e5, text="Of the control of the torque; 0: without lag")
+        float, Number("Hz", 0.0, 1e5, text="Bandwidth of the torque control; 0: without lag")
     ] = 0.0
     ripple: RippleTable | None = None
     skew_angle: Annotated[
