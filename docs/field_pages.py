@@ -159,7 +159,8 @@ def _run_time_parameters(page: Page) -> None:
 
 def _oils(page: Page) -> None:
     """Put in the classes of base oils with their sources, and the shipped oils."""
-    classes, sources = [], []
+    classes: list[list[str]] = []
+    sources: dict[str, list[str]] = {}  # of which values, by source
     for name, base in BASE_OILS.items():
         parts = {
             "limiting coefficient": (base.limiting_coefficient, ""),
@@ -169,9 +170,11 @@ def _oils(page: Page) -> None:
         }
         cells = [f"{one.value:g}{unit}, {one.factor:g}" for one, unit in parts.values()]
         classes.append([f"`{name}`", base.words, *cells, f"factor {base.alpha.factor:g}"])
-        sources += [f"- `{name}`, {words}: {one.why}" for words, (one, _) in parts.items()]
+        for words, (one, _) in parts.items():
+            sources.setdefault(one.why, []).append(f"{words} (`{name}`)")
     page.rows("`base_oil` | | Limiting", classes)
-    page.paragraph("Each pair is a value and its factor. Sources:", "\n".join(sources))
+    listed = "\n".join(f"- {', '.join(values)}: {why}" for why, values in sources.items())
+    page.paragraph("Sources:", listed)
     page.fill("A number for the Eyring stress: factor {}. Values of", f"{EYRING_FACTOR:g}")
     oils = []
     for name in (*lubricant_names(), *OilFile.shipped()):
