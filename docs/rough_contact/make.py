@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from docs.page import IMAGES
-from gearlube.plotting.style import BLUE, GREY, MARKERS, SERIES, VERMILLION, house_style, new_figure
+from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
 from gearlube.studies.roughness.results import flow_figure
 from gearlube_core.arrays import Array
 from gearlube_core.contact.dang_van import QUENCHED_42CRMO4, dang_van_number, passage_history
@@ -152,32 +152,10 @@ def joined(each: list[xr.Dataset]) -> xr.Dataset:
     return mean.assign(spreads).assign_attrs(each[0].attrs)
 
 
-def contact_figure(each: list[xr.Dataset]) -> Any:
-    """Return contact shares over the film ratio, dry, of each patch."""
-    with house_style():
-        figure = new_figure(9.5, 4.0)
-        left, right = figure.subplots(1, 2)
-        for seed, one, colour, marker in zip(_SEEDS, each, SERIES, MARKERS, strict=False):
-            style = {"ms": 4, "color": colour, "label": f"surface of seed {seed}"}
-            left.semilogy(one.film_ratio, one.asperity_area, marker + "-", **style)
-            load = one.asperity_pressure / one.attrs["rms_slope"]
-            right.loglog(load, one.asperity_area, marker + "-", **style)
-        loads = np.geomspace(1e-4, 0.2, 50)
-        right.loglog(loads, 2.0 * loads, "k--", lw=1.0, label="2 times the load (small loads)")
-        share = "share of the area in contact"
-        left.set(xlabel="mean gap over roughness σ", ylabel=share, ylim=(1e-4, 1.0))
-        right.set(xlabel="load: mean pressure over (E* times rms slope)", ylabel=share)
-        figure.suptitle("Dry contact of five made surfaces with the same statistics", fontsize=10.5)
-        for ax in (left, right):
-            ax.legend(fontsize=8)
-    return figure
-
-
 def main() -> None:
     """Draw all figures."""
     isotropic, across = tables(1.0), tables(1.0 / 3.0)
     figures = {
-        "rough_contact_share": contact_figure(isotropic),
         "rough_flow_factors": flow_figure([(1.0, joined(isotropic)), (1.0 / 3.0, joined(across))]),
         "rough_stress": stress_figure(),
     }
