@@ -21,7 +21,6 @@ import pandas as pd
 
 from docs.measured.points import (
     Point,
-    as_before,
     bearings,
     exponents,
     fva_3,
@@ -29,52 +28,18 @@ from docs.measured.points import (
 )
 from docs.page import IMAGES, ROOT, Page, begin
 from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
-from gearlube.studies.helical.pair_losses import losses_dataset
-from gearlube.studies.helical.settings import HelicalSettings
-from gearlube_core.helical_geometry.gear_file import HelicalGearFile
-from gearlube_core.oil.film_laws import log_viscosity
-from gearlube_core.oil.film_oil_data import film_oil_of
-from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.storage.atomic_file import write_text
-from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
 
 KEPT, OTHERS = (Path(__file__).with_name(name) for name in ("points.csv", "others.json"))
 FIGURE = IMAGES / "measured.png"
-PRESSURE, DEGC = 0.92e9, 110.0  # of the viscosity that is shown
 
 
 def others(work: Path) -> dict[str, Any]:
-    """Return the commit that predicts, exponents between discs, what the oil changes."""
+    """Return the commit that predicts, and exponents between discs."""
     git = ["git", "merge-base", "HEAD", "main"]
     done = subprocess.run(git, cwd=ROOT, capture_output=True, text=True, check=True)
     found: dict[str, Any] = {"commit": done.stdout[:8]}
-    found |= {f"discs_{name}": [*map(float, one)] for name, one in exponents(work).items()}
-    pao = Lubricant.named("arana_2019_pao100")
-    oils = [film_oil_of(one, celsius_to_kelvin(DEGC)) for one in (as_before(pao), pao)]
-    found["pao_viscosity"] = [
-        one.eta0 * math.exp(log_viscosity(one.viscosity, PRESSURE, 1.0)[0]) for one in oils
-    ]
-    sheet = read_oil("iso_vg_220_pao").lubricant
-    found["pair_sliding"] = [_sliding(one) for one in (as_before(sheet), sheet)]
-    return found
-
-
-def _sliding(oil: Lubricant) -> float:
-    """Return the loss by sliding of a smooth pair, by formulas [W]."""
-    settings = HelicalSettings(
-        file=HelicalGearFile.named("he_2007"),
-        pinion_torque=226.0,
-        pinion_speed=rpm_to_rads(1000.0),
-        torques=(226.0,),
-        speeds=(rpm_to_rads(1000.0),),
-        oil=oil,
-        oil_temperature=celsius_to_kelvin(90.0),
-        roughness_rms=5e-8,
-        parts="losses",
-        draws=0,
-    )
-    return float(losses_dataset(settings, settings.constant_mesh())["loss"].values.ravel()[0])
+    return found | {f"discs_{name}": [*map(float, one)] for name, one in exponents(work).items()}
 
 
 def stored() -> tuple[list[Point], dict[str, Any]]:
@@ -91,18 +56,12 @@ def sets(points: Sequence[Point]) -> dict[str, list[Point]]:
     return found
 
 
-def _misfit(ratios: Sequence[float]) -> tuple[str, str]:
-    """Return geometric mean and rms of logarithms as text."""
-    logs = np.log(ratios)
-    return f"{math.exp(logs.mean()):.2f}", f"{100.0 * math.sqrt(np.mean(logs**2)):.0f} %"
-
-
 def summary(name: str, points: Sequence[Point]) -> list[str]:
     """Return the row of one measurement, or of all."""
-    before = [one.before / one.measured for one in points]
-    now = [one.predicted / one.measured for one in points]
+    logs = np.array([one.log_ratio for one in points])
+    misfit = f"{math.exp(logs.mean()):.2f}", f"{100.0 * math.sqrt(np.mean(logs**2)):.0f} %"
     inside = sum(one.inside for one in points)
-    return [name, str(len(points)), *_misfit(before), *_misfit(now), f"{inside} of {len(points)}"]
+    return [name, str(len(points)), *misfit, f"{inside} of {len(points)}"]
 
 
 def put(page: Page, points: Sequence[Point], more: dict[str, Any]) -> None:
@@ -145,16 +104,6 @@ def put(page: Page, points: Sequence[Point], more: dict[str, Any]) -> None:
         ],
     )
     page.rows("torque of the bearing", [_row(one) for one in torques])
-    page.rows(
-        "without a measurement |",
-        [
-            [words, *(f"{x:.{digits}f}" for x in more[name])]
-            for name, words, digits in (
-                ("pair_sliding", "sliding loss of a smooth pair in a PAO [W]", 0),
-                ("pao_viscosity", "viscosity of PAO 100 at 0.92 GPa and 110 °C [Pa·s]", 1),
-            )
-        ],
-    )
 
 
 def _row(one: Point) -> list[str]:
@@ -162,7 +111,7 @@ def _row(one: Point) -> list[str]:
     low, high = one.predicted / one.factor, one.predicted * one.factor
     return [
         f"{one.data}, {one.where}", f"{one.measured:.{digits}f}",
-        f"{100.0 * (one.uncertainty - 1.0):.0f} %", f"{one.before:.{digits}f}",
+        f"{100.0 * (one.uncertainty - 1.0):.0f} %",
         f"**{one.predicted:.{digits}f}**", f"{low:.{digits}f} to {high:.{digits}f}",
         "yes" if one.inside else "**no**",
     ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""What is predicted for each measured point, by the shipped defaults and by the oil as before."""
+"""What is predicted for each measured point, by the shipped defaults."""
 
 from __future__ import annotations
 
@@ -57,7 +57,6 @@ class Point(NamedTuple):
     unit: str
     measured: float
     uncertainty: float  # factor of the measurement
-    before: float  # predicted with the oil as before
     predicted: float
     factor: float  # of the prediction
 
@@ -71,12 +70,6 @@ class Point(NamedTuple):
         """Tell whether both bars of 95 % together hold the difference."""
         bar = math.hypot(math.log(self.uncertainty), math.log(self.factor))
         return abs(self.log_ratio) <= bar
-
-
-def as_before(oil: Lubricant) -> Lubricant:
-    """Return an oil of Roelands' law, its slope the given alpha, and of one Eyring stress."""
-    law = {"viscosity_law": None, "alpha_is": "slope"}
-    return replace(oil, **law, eyring_stress=5e6, eyring_slope=0.0)
 
 
 def film_factor(grid: float) -> float:
@@ -100,60 +93,53 @@ def fva_3(work: Path) -> Iterator[Point]:
         degc, u = row.number("temperature_degc"), row.number("speed_m_s")
 
         def solved(degc: float = degc, u: float = u) -> dict[str, Array]:
-            found = {}
-            for name, one in (("now", oil), ("before", as_before(oil))):
-                film_of = film_oil_of(one, celsius_to_kelvin(degc), newtonian=True)
-                film = _ball(film_of, GLASS_R, GLASS_LOAD, GLASS_MODULUS, u)
-                found[name] = np.array([film.central_film, film.error.central_film])
-            return found
+            film_of = film_oil_of(oil, celsius_to_kelvin(degc), newtonian=True)
+            film = _ball(film_of, GLASS_R, GLASS_LOAD, GLASS_MODULUS, u)
+            return {"now": np.array([film.central_film, film.error.central_film])}
 
-        films = kept.kept(f"fva_3_{degc:g}_{u:g}", solved)
-        h, grid = films["now"]
+        h, grid = kept.kept(f"fva_3_{degc:g}_{u:g}", solved)["now"]
         yield Point(
             f"FVA 3, {degc:g} °C", f"{u:.3g} m/s", "nm", row.number("central_film_nm"),
             1.0 + 0.01 * row.number("uncertainty_percent"),
-            1e9 * films["before"][0], 1e9 * h, film_factor(grid),
+            1e9 * h, film_factor(grid),
         )  # fmt: skip
 
 
 def mourier(work: Path) -> Iterator[Point]:
-    """Yield the films without and beside the cavity; now the printed alpha is that of films."""
-    found = []
+    """Yield the films without and beside the cavity; the printed alpha is that of films."""
     slope = slope_for(lambda one: roelands(OIL.eta0, one), CAVITY_ALPHA, "film")
-    for folder, oil in (("before", OIL), ("now", film_oil(eta0=OIL.eta0, alpha=slope))):
-        kept = KeptFilms(work / folder)
+    oil, kept = film_oil(eta0=OIL.eta0, alpha=slope), KeptFilms(work / "now")
 
-        def at_rest(oil: FilmOil = oil) -> dict[str, Array]:
-            film = _ball(oil, RADIUS, CAVITY_LOAD, MODULUS, SPEED)
-            middle = film.film[:, film.nodes[1] // 2]
-            x = film.problem.x
-            error = film.error
-            return {
-                "middle": np.array([film.central_film, error.central_film]),
-                "outlet": np.array([middle[np.abs(x) < 1.2 * A].min(), error.minimum_film]),
-            }
+    def at_rest() -> dict[str, Array]:
+        film = _ball(oil, RADIUS, CAVITY_LOAD, MODULUS, SPEED)
+        middle = film.film[:, film.nodes[1] // 2]
+        x = film.problem.x
+        error = film.error
+        return {
+            "middle": np.array([film.central_film, error.central_film]),
+            "outlet": np.array([middle[np.abs(x) < 1.2 * A].min(), error.minimum_film]),
+        }
 
-        rest = kept.kept("mourier_at_rest", at_rest)
-        passage = kept_passage(Store(work / folder), replace(SLIDING, oil=oil), NODES)
-        place = SLIDING_PUBLISHED[-1].centre
-        n = passage.step(1e-6 * place)
-        ahead = at_cavity(SLIDING, passage, place).oil
-        offset = passage.centre[n] - passage.x
-        near = (offset > SLIDING.cavity_radius) & (offset < 3.0 * SLIDING.cavity_radius)
-        found.append({
-            **{name: (1e9 * h, error) for name, (h, error) in rest.items()},
-            "ahead of the cavity": (ahead, 0.02),
-            "behind the cavity": (1e9 * float(passage.film[n][near].min()), 0.02),
-        })  # fmt: skip
+    rest = kept.kept("mourier_at_rest", at_rest)
+    passage = kept_passage(Store(work / "now"), replace(SLIDING, oil=oil), NODES)
+    place = SLIDING_PUBLISHED[-1].centre
+    n = passage.step(1e-6 * place)
+    ahead = at_cavity(SLIDING, passage, place).oil
+    offset = passage.centre[n] - passage.x
+    near = (offset > SLIDING.cavity_radius) & (offset < 3.0 * SLIDING.cavity_radius)
+    found = {
+        **{name: (1e9 * h, error) for name, (h, error) in rest.items()},
+        "ahead of the cavity": (ahead, 0.02),
+        "behind the cavity": (1e9 * float(passage.film[n][near].min()), 0.02),
+    }
     for row in read_table(TABLES / "mourier_2006.csv"):
         ratio, where = row.number("slide_roll"), row.text("where")
         measured = row.number("film_nm")
-        (before, _), (now, grid) = (one[where] for one in found)
+        film, grid = found[where]
         rolls = "rolling" if ratio == ROLLING.slide_roll else "sliding"
         yield Point(
             "Mourier's ball", f"{rolls}, {where}", "nm", measured,
-            1.0 + row.number("uncertainty_nm") / measured, before, now,
-            film_factor(grid),
+            1.0 + row.number("uncertainty_nm") / measured, film, film_factor(grid),
         )  # fmt: skip
 
 
@@ -164,13 +150,13 @@ def bearings() -> Iterator[Point]:
         torque = loss(one, law=DEFAULT_LAW).torque
         where = f"{one.degc:g} °C, {one.radial:g} N radial, {one.rpm} rpm"
         read = 1.0 + 0.1 / one.torque
-        yield Point("bearing 32216", where, "N·m", one.torque, read, torque, torque, factor)
+        yield Point("bearing 32216", where, "N·m", one.torque, read, torque, factor)
     for two in POINTS_32008:
         torque = two.computed(DEFAULT_LAW)
         difference = 0.5 * abs(math.log(two.readings[0] / two.readings[1]))
         read = math.exp(max(difference, _LEAST_READING))
         where = f"{two.degc:g} °C, {two.rpm:g} rpm"
-        yield Point("bearing 32008", where, "N·m", two.torque, read, torque, torque, factor)
+        yield Point("bearing 32008", where, "N·m", two.torque, read, torque, factor)
 
 
 def exponents(work: Path) -> dict[str, Array]:

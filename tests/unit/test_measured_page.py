@@ -35,7 +35,7 @@ def test_predictions_of_bearings_are_those_of_the_laws_today():
 
 
 def test_a_point_is_inside_where_both_bars_together_hold_the_difference():
-    point = Point("", "", "nm", 100.0, 1.1, 1.0, 115.0, 1.1)
+    point = Point("", "", "nm", 100.0, 1.1, 115.0, 1.1)
     # ln 1.15 = 0.1398 lies beyond the root of 2 times ln 1.1 = 0.1348
     assert not point.inside
     assert point._replace(predicted=100.0 * math.exp(0.134)).inside
@@ -43,5 +43,5 @@ def test_a_point_is_inside_where_both_bars_together_hold_the_difference():
 
 
 def test_summary_has_geometric_mean_and_rms_of_logarithms():
-    points = [Point("", "", "nm", 1.0, 1.1, 4.0, ratio, 1.1) for ratio in (0.5, 2.0)]
-    assert make.summary("all", points) == ["all", "2", "4.00", "139 %", "1.00", "69 %", "0 of 2"]
+    points = [Point("", "", "nm", 1.0, 1.1, ratio, 1.1) for ratio in (0.5, 2.0)]
+    assert make.summary("all", points) == ["all", "2", "1.00", "69 %", "0 of 2"]
