@@ -90,45 +90,29 @@ class Variant(NamedTuple):
     """One run of the page."""
 
     name: str
-    title: str
     changes: dict[str, Any]
-    march: bool
+    march: bool = False
 
 
 CASE = HypoidCase.named("mohammadpour_2015")
 HALF = (CASE.solver.steady + 1) // 2  # every second one of the drive flank's positions
-COAST_TORQUE = -20.0  # N.m
-VARIANTS = (
-    Variant(
-        "drive",
-        f"Drive flank, {CASE.pinion_torque_n_m:g} N.m, {CASE.pinion_speed_rpm:g} rpm",
-        {},
-        True,
-    ),
-    Variant(
-        "newtonian",
-        "The same, a film that flows as a Newtonian one",
-        {"flow": "newtonian", "solver.steady": HALF},
-        False,
-    ),
-    Variant(
-        "thermal",
-        "The same, with heat in the steady films",
-        {"temperature": "thermal", "solver.steady": HALF},
-        False,
-    ),
-    Variant(
-        "moving_contact",
-        "The same, entrainment against the moving point of contact",
-        {"entrainment": "moving_contact", "solver.steady": HALF},
-        False,
-    ),
-    Variant(
-        "coast",
-        f"Coast flank, {COAST_TORQUE:g} N.m",
-        {"pinion_torque_n_m": COAST_TORQUE, "solver.steady": 7},
-        False,
-    ),
+VARIANTS = (  # in the order of the table of means
+    Variant("drive", {}, True),
+    Variant("newtonian", {"flow": "newtonian", "solver.steady": HALF}),
+    Variant("thermal", {"temperature": "thermal", "solver.steady": HALF}),
+    Variant("moving_contact", {"entrainment": "moving_contact", "solver.steady": HALF}),
+    Variant("coast", {"pinion_torque_n_m": -20.0, "solver.steady": 7}),
+)
+MEANS = (  # rows of the table of means: quantity, formula
+    ("central film", "Chittenden et al. 1985"),
+    ("central film", "Chittenden, minor-axis component"),
+    ("central film", "Grubin 1949"),
+    ("minimum film", "Chittenden et al. 1985"),
+    ("largest pressure", "Hertz"),
+    ("friction", "Evans and Johnson 1986"),
+    ("friction", "Evans and Johnson, film and Roelands"),
+    ("friction", "axle, with asperities"),
+    ("friction", "Eyring, isothermal"),
 )
 _UNITS = {"m": (1e6, "µm"), "Pa": (1e-9, "GPa"), "1": (1.0, ""), "deg": (1.0, "°")}
 
@@ -150,6 +134,18 @@ def cells(rows: list[RatioRow]) -> Iterator[list[str]]:
         yield [row.quantity, row.source, *(f"{factor * one:.3g}" for one in numbers), unit]
 
 
+def of(rows: list[RatioRow], quantity: str, source: str) -> RatioRow:
+    """Return one row of a summary."""
+    return next(row for row in rows if (row.quantity, row.source) == (quantity, source))
+
+
+def means(runs: list[list[RatioRow]]) -> Iterator[list[str]]:
+    """Yield the load-weighted means of formulas over solution, of all runs."""
+    for quantity, source in MEANS:
+        found = (of(rows, quantity, source).load_weighted_mean for rows in runs)
+        yield [f"{quantity}, {source}", *(f"{one:.3g}" for one in found)]
+
+
 def changes(given: xr.Dataset, other: xr.Dataset, name: str) -> str:
     """Return how much a steady quantity of every second position lies above another run's."""
     ratio = given[f"steady_{name}"].values[::2] / other[f"steady_{name}"].values
@@ -168,9 +164,6 @@ def gain(drive: xr.Dataset, moving: xr.Dataset) -> float:
 
 def put_findings(page: Page, drive: list[RatioRow], sets: dict[str, xr.Dataset]) -> None:
     """Put the numbers into what the runs say."""
-
-    def of(rows: list[RatioRow], quantity: str, source: str) -> RatioRow:
-        return next(row for row in rows if (row.quantity, row.source) == (quantity, source))
 
     def spans(source: str) -> list[str]:
         found = [of(drive, quantity, source) for quantity in ("central film", "minimum film")]
@@ -214,13 +207,13 @@ def put_findings(page: Page, drive: list[RatioRow], sets: dict[str, xr.Dataset])
          "temperature and {} times the one heated across",
          [loss(hot_film.least, hot_film.largest), loss(hot_min.least, hot_min.largest),
           f"{cooled:.2f}", f"{heated:.2f}"]),
-        ("which knows both parts of the heat, is {} times the friction of the thermal films",
+        ("Evans and Johnson's formula is {} times the friction of the thermal films",
          [over("Evans and Johnson 1986")]),
-        ("solution's film and Roelands' viscosity {}: its excess",
+        ("thermal films, with the solution's film and Roelands' viscosity {}.",
          [over("Evans and Johnson, film and Roelands")]),
         ("changes the central film by {}, the smallest one by {} and the friction by {} against",
          [h_c, h_min, friction]),
-        ("the largest pressure changes by {}.\n", [p_max]),
+        ("the largest pressure changes by {} (spikes", [p_max]),
         ("central films in time are {} to {} of the steady ones",
          [f"{squeeze.least:.2f}", f"{squeeze.largest:.2f}"]),
         ("speed is larger, and the mean central film by {} %", [f"{thicker:.0f}"]),
@@ -234,8 +227,10 @@ def main(work: Path) -> None:
     rows, page = {name: ratio_rows(dataset) for name, dataset in sets.items()}, Page("ehl_hypoid")
     put_grids(page, work, CASE)
     put_findings(page, rows["drive"], sets)
-    for one in VARIANTS:
-        page.rows("Quantity | Of", cells(rows[one.name]), f"\n## {one.title}\n")
+    page.rows("Mean, over solution", means(list(rows.values())))
+    page.rows("Quantity | Of", cells(rows["drive"]), "\n## Drive flank, 40 N.m, 1377 rpm\n")
+    hot = [row for row in rows["thermal"] if "thermal" in row.source]
+    page.rows("Quantity | Of", cells(hot), "\n## With heat in the steady films\n")
     page.write()
     for picture in sorted((work / "drive" / "figures").glob("*.png")):
         shutil.copyfile(picture, IMAGES / f"ehl_hypoid_{picture.name}")
