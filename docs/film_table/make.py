@@ -104,8 +104,6 @@ def put(page: Page, rows: Sequence[Row], solved: Table) -> None:
             _sizes("p_max", [row.pressure for row in rows]),
         ],
     )
-    wide = [row for row in rows if max(row.central.error, row.minimum.error) > WIDE]
-    page.rows("a_y/a_x | degrees", _wide(wide))
     page.fill(
         "; {} on all three grids. The extrapolated central films agree within {} %, the smallest "
         "within {} %; {} of the {} films lie within the sum of both errors.",
@@ -167,18 +165,6 @@ def _sizes(name: str, values: Sequence[Value]) -> list[str]:
         f"{100.0 * max(errors):.2g} %",
         str(sum(error > WIDE for error in errors)),
     ]
-
-
-def _wide(rows: Sequence[Row]) -> list[list[str]]:
-    cells = []
-    for row in rows:
-        c = row.solved.contact
-        errors = (row.central.error, row.minimum.error)
-        cells.append(
-            [f"{c.ellipticity:g}", f"{c.angle:g}", f"{c.M:g}", f"{c.L:g}"]
-            + [f"{100.0 * error:.2g} %" for error in errors]
-        )
-    return cells
 
 
 def main() -> None:
