@@ -9,7 +9,7 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from docs.fmu_hosts.hosts import Job, c_host, in_c_host, in_fmpy
+from docs.fmu_hosts.hosts import Job, in_c_host, in_fmpy
 from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Gearbox
@@ -202,7 +202,7 @@ def test_a_start_speed_without_a_gear_is_refused(fmus: list[Path], tmp_path: Pat
     reals = {"vehicle.speed_start": 30.0}
     job = Job(fmu=fmus[0], reals=reals, integers={"gearbox.gear": 1}, names=OUTPUTS)
     with pytest.raises(RuntimeError, match=r"keep the engine within its speeds in gearbox\.gear"):
-        in_c_host(job, c_host(tmp_path), tmp_path)
+        in_c_host(job, tmp_path)
 
 
 def test_the_car_of_an_axle_file_is_built_beside_its_axle(
