@@ -18,7 +18,8 @@ from scipy.linalg import hankel, svd
 
 from docs.page import Page
 from drivetrain.driveline.equations import INDEX
-from drivetrain.driveline.model import Driveline, driveline_modes
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.modes import driveline_modes
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.arrays import Array

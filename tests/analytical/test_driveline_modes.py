@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from drivetrain.driveline.model import Driveline, driveline_modes
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.modes import driveline_modes
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load, mohammadpour_2015_vehicle

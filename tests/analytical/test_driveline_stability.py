@@ -8,7 +8,8 @@ import pytest
 from scipy.linalg import expm
 
 from drivetrain.driveline.equations import STATES
-from drivetrain.driveline.model import COMMUNICATION_STEP, Driveline, driveline_modes
+from drivetrain.driveline.model import COMMUNICATION_STEP, Driveline
+from drivetrain.driveline.modes import driveline_modes
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load

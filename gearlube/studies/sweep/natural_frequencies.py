@@ -11,7 +11,8 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
-from drivetrain.driveline.model import Driveline, driveline_modes
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.modes import driveline_modes
 from drivetrain.steady_temperature import steady_temperature
 from drivetrain.sump_heat import SumpHeat
 from gearlube.report.parts import Number
