@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from gearlube.report.parts import Report
 
 _LOGGER = logging.getLogger("gearlube")
+_PER_MILLE = 1000  # steps of a bar without parts of its own
+_SILENCE = 30.0  # s, after which a line is written although little more is done
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ class StudyRun:
 
     @contextmanager
     def results(
-        self, parts: int = 1000, bar: str = "", *, by_parts: bool = False
+        self, parts: int = _PER_MILLE, bar: str = "", *, by_parts: bool = False
     ) -> Iterator[Progress]:
         """Make and mark the folder of results; yield the callback of a bar with `parts`.
 
@@ -100,12 +102,20 @@ def study_run(
 
 
 @contextmanager
-def progress_on(name: str, parts: int = 1000) -> Iterator[Progress]:
-    """Yield a callback that shows the share done [-] as a bar of `parts`, with a sentence."""
+def progress_on(name: str, parts: int = _PER_MILLE) -> Iterator[Progress]:
+    """Yield a callback that shows the share done [-] with a sentence and the time left.
+
+    On a terminal this is a bar, with percent or, if given, the number of `parts`. Elsewhere it is
+    a line each 10 %, and each half a minute if that takes longer.
+    """
+    if not console.is_terminal:
+        yield _ProgressLines(name).report
+        return
+    in_percent = parts == _PER_MILLE
     columns = (
         rich_progress.TextColumn("{task.description}"),
         rich_progress.BarColumn(),
-        rich_progress.MofNCompleteColumn(),
+        rich_progress.TaskProgressColumn() if in_percent else rich_progress.MofNCompleteColumn(),
         rich_progress.TimeElapsedColumn(),
         rich_progress.TimeRemainingColumn(),
     )
@@ -116,6 +126,26 @@ def progress_on(name: str, parts: int = 1000) -> Iterator[Progress]:
             bar.update(task, completed=int(parts * share + 1e-9), description=sentence)
 
         yield report
+
+
+class _ProgressLines:
+    """Progress as lines of text, for files and pipes."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._began = self._last = time.monotonic()
+        self._tenths = 0
+
+    def report(self, share: float, sentence: str) -> None:
+        now, tenths = time.monotonic(), int(10.0 * share + 1e-9)
+        if tenths <= self._tenths and now - self._last < _SILENCE:
+            return
+        self._tenths, self._last = max(tenths, self._tenths), now
+        spent = now - self._began
+        left = f", about {spent / share - spent:.0f} s left" if 0.0 < share < 1.0 else ""
+        _LOGGER.info(
+            "%s %.0f %% after %.0f s%s: %s", self._name, 100.0 * share, spent, left, sentence
+        )
 
 
 def empty_table(title: str, *headings: str, **look: Any) -> Table:

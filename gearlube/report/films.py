@@ -28,13 +28,13 @@ def film_ratio_words(ratio: float) -> str:
     Examples
     --------
     >>> film_ratio_words(0.4)
-    'Below 1 asperities carry much of the load; watch wear and friction.'
+    'Below 1 asperities are in contact over much of the flank: watch wear.'
     """
     if ratio >= FULL_FILM:
         return f"Above {FULL_FILM:g}: full film."
     if ratio >= MIXED:
         return f"Below {FULL_FILM:g} the highest asperities are in contact: mixed lubrication."
-    return f"Below {MIXED:g} asperities carry much of the load; watch wear and friction."
+    return f"Below {MIXED:g} asperities are in contact over much of the flank: watch wear."
 
 
 def hot_film(

@@ -8,10 +8,11 @@ import pytest
 from scipy.linalg import eigh
 
 from drivetrain.driveline.model import Driveline
-from drivetrain.driveline.modes import driveline_modes
+from drivetrain.driveline.modes import coupled_modes, driveline_modes
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.engine import Engine
 from drivetrain.road_load import mohammadpour_2015_road_load, mohammadpour_2015_vehicle
+from gearlube_core.dynamics.hypoid_axle.linearise import LinearAxle
 from tests.helpers.each import each
 
 RATIO = 36 / 13
@@ -52,6 +53,69 @@ def test_undamped_modes_are_those_of_a_chain_of_five_masses(speed_kmh: float) ->
     # Residual creep V/sigma of 1e-6 1/s and rounding of eigenvalues.
     assert [m.frequency for m in reversed(modes)] == pytest.approx(list(expected), rel=1e-6)
     assert max(m.damping_ratio for m in modes) < 1e-6
+
+
+MESH, BEARING = 3e8, 4e8  # N/m
+MASSES = np.diag([1.734e-3, 5.81e-2, 12.0, 12.0, 12.0, 49.9, 49.9, 49.9])
+# how much the two rotations and the six displacements close the mesh [m], [-]
+CLOSING = np.array([0.0207, -0.0207 * RATIO, -0.3, 0.6, 0.4, 0.2, -0.5, 0.5])
+
+
+def elastic_axle() -> LinearAxle:
+    stiffness = MESH * np.outer(CLOSING, CLOSING) + np.diag([0.0, 0.0, *6 * [BEARING]])
+    return LinearAxle(MASSES, np.zeros((8, 8)), stiffness, np.zeros((8, 8)))
+
+
+def test_undamped_modes_of_axle_and_car_are_those_of_their_matrices() -> None:
+    line = Driveline(UNDAMPED, 60.0 / 3.6)
+    g, r = line.gear_ratio, LOAD.tyre.rolling_radius
+    # coordinates: those of the axle, then crank, gearbox input, hubs, vehicle (m)
+    inertia = np.zeros((12, 12))
+    inertia[:8, :8] = MASSES
+    inertia[8:, 8:] = np.diag([0.16, 0.06 + 0.012 / g**2, 1.8, 1300.0 + 1.8 / r**2])
+    springs = {
+        "mesh": (MESH, {i: float(CLOSING[i]) for i in range(8)}),
+        "flywheel springs": (400.0, {8: 1.0, 9: -1.0}),
+        "propshaft": (UNDAMPED.propshaft_stiffness, {9: 1.0 / g, 0: -1.0}),
+        "half-shafts": (UNDAMPED.half_shaft_stiffness, {1: 1.0, 10: -1.0}),
+        "tyres": (DAMPED.tyre_stiffness, {10: r, 11: -1.0}),
+    }
+    parts = {"bearings": np.diag([0.0, 0.0, *6 * [BEARING], *4 * [0.0]])}
+    for name, (k, ends) in springs.items():
+        row = np.zeros(12)
+        row[list(ends)] = list(ends.values())
+        parts[name] = k * np.outer(row, row)
+    values, shapes = eigh(sum(parts.values()), inertia)
+    modes = coupled_modes(elastic_axle(), line)
+    # residual creep of 1e-6 1/s and rounding of eigenvalues of matrices of condition 1e13
+    expected = np.sqrt(values[1:]) / (2.0 * math.pi)
+    assert [one.frequency for one in modes] == pytest.approx(list(expected), rel=1e-5)
+    # shares are of one mode each; those of close frequencies may mix
+    for one, value, shape in zip(modes, values[1:], shapes.T[1:], strict=True):
+        if np.sum(np.abs(values / value - 1.0) < 0.01) == 1:
+            whole = shape @ sum(parts.values()) @ shape
+            for name, matrix in parts.items():
+                assert one.strain[name] == pytest.approx(shape @ matrix @ shape / whole, abs=1e-4)
+
+
+def test_a_stiff_axle_in_its_car_has_the_modes_of_a_rigid_one() -> None:
+    stiff = elastic_axle()
+    stiff = replace(stiff, stiffness=100.0 * stiff.stiffness)
+    line = Driveline(DAMPED, 60.0 / 3.6)
+    rigid = driveline_modes(line)[0]
+    found = min(coupled_modes(stiff, line), key=lambda one: abs(one.frequency - rigid.frequency))
+    # 3 % of the strain energy would be in axle springs of this stiffness's hundredth part
+    assert found.frequency == pytest.approx(rigid.frequency, rel=2e-3)
+    assert found.damping_ratio == pytest.approx(rigid.damping_ratio, rel=5e-3)
+    assert found.car_strain > 0.99
+
+
+def test_an_axle_without_a_car_rings_alone() -> None:
+    free = coupled_modes(elastic_axle(), None)
+    values = eigh(elastic_axle().stiffness, MASSES, eigvals_only=True)
+    expected = np.sqrt(values[1:]) / (2.0 * math.pi)
+    assert [one.frequency for one in free] == pytest.approx(list(expected), rel=1e-6)
+    assert all(one.car_strain == 0.0 for one in free)
 
 
 def test_an_axle_between_two_walls_rings_on_both_shafts_and_has_their_damping() -> None:

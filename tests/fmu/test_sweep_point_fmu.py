@@ -86,7 +86,7 @@ def test_higher_preload_raises_every_bearing_mode_by_the_power_of_one_twentieth(
     settings = SweepSettings(driver="hold")
     paper = read_axle("mohammadpour_2015")
     found = natural_frequencies([2500.0, 6000.0], 60.0, settings, paper)
-    modes = found.sel(mode="gear axial").values
+    modes = found["mode_frequency"].sel(mode="gear axial").values
     # Stiffness of a preloaded line contact goes with F^((n-1)/n), n = 10/9, so the frequency with
     # F^(1/20) (Mohammadpour et al. 2015); the mesh force adds to the preload: 0.5 % here.
     assert modes[1] / modes[0] == pytest.approx((6000.0 / 2500.0) ** 0.05, rel=5e-3)

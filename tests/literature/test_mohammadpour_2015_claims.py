@@ -27,7 +27,7 @@ def sweep(speeds=SPEEDS, **changes):
         (v, p): march(car_axle_at(car, settings, p), v, settings) for v in speeds for p in PRELOADS
     }
     modes = natural_frequencies(PRELOADS, speeds[-1], settings, car)
-    return merge(PRELOADS, speeds, points).assign(mode_frequency=modes)
+    return merge(PRELOADS, speeds, points).assign(modes.variables)
 
 
 @pytest.fixture(scope="module")

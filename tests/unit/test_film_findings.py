@@ -151,7 +151,7 @@ def test_inputs_are_told_in_everyday_units():
 @pytest.mark.parametrize(
     ("roughness", "ratio", "level", "words"),
     [
-        (0.5e-6, "0.5", WARNING, "asperities carry much of the load"),
+        (0.5e-6, "0.5", WARNING, "asperities are in contact over much of the flank"),
         (0.125e-6, "2", NOTE, "mixed lubrication"),
         (0.05e-6, "5", GOOD, "full film"),
     ],

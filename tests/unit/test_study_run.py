@@ -9,7 +9,7 @@ import typer
 from typer.testing import CliRunner
 
 from gearlube.cli.option_groups import MultiValueCommand
-from gearlube.cli.study_run import run_next, study_run
+from gearlube.cli.study_run import progress_on, run_next, study_run
 
 
 @pytest.mark.parametrize("code", [0, 3])
@@ -81,3 +81,30 @@ def test_what_is_written_is_named_with_its_folder(tmp_path: Path, caplog):
     with study_run("springs", tmp_path) as run:
         run.written("a.nc", "figures", note=" (table)")
     assert f"Results: {tmp_path / 'a.nc'} (table), {tmp_path / 'figures'}" in caplog.text
+
+
+def test_progress_that_is_no_terminal_is_a_line_each_tenth_with_the_time_left(caplog, monkeypatch):
+    clock = [100.0]
+    monkeypatch.setattr("gearlube.cli.study_run.time.monotonic", lambda: clock[0])
+    caplog.set_level(logging.INFO, "gearlube")
+    with progress_on("sweep") as report:
+        for step in range(1, 101):
+            clock[0] += 0.5  # s, 50 s in all
+            report(step / 100.0, f"point {step}")
+    lines = [one.getMessage() for one in caplog.records]
+    assert len(lines) == 10
+    assert lines[1] == "sweep 20 % after 10 s, about 40 s left: point 20"
+    assert lines[-1] == "sweep 100 % after 50 s: point 100"
+
+
+def test_progress_that_stands_still_is_told_each_half_a_minute(caplog, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr("gearlube.cli.study_run.time.monotonic", lambda: clock[0])
+    caplog.set_level(logging.INFO, "gearlube")
+    with progress_on("sweep") as report:
+        for _ in range(90):
+            clock[0] += 1.0
+            report(0.0, "compiling")
+    assert [one.getMessage() for one in caplog.records] == [
+        f"sweep 0 % after {30 * i} s: compiling" for i in (1, 2, 3)
+    ]

@@ -14,7 +14,7 @@ from gearlube.studies.sweep.datasets import merge, summary_table
 from gearlube.studies.sweep.figures import CATALOGUE, spectrum_bubbles
 from gearlube.studies.sweep.figures.bubbles import all_lines, highest, lines_of
 from gearlube.studies.sweep.figures.orders import DTE, default_top
-from gearlube.studies.sweep.natural_frequencies import harmonic_amplitude
+from gearlube.studies.sweep.peaks import harmonic_amplitude
 from gearlube.studies.sweep.point import failed_point, summarise
 from gearlube.studies.sweep.report import sweep_report, write_sweep_report
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings

@@ -10,7 +10,7 @@ from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.sweep import datasets
 from gearlube.studies.sweep.datasets import merge
 from gearlube.studies.sweep.findings import findings
-from gearlube.studies.sweep.natural_frequencies import crossings, numbers, peak_orders
+from gearlube.studies.sweep.peaks import crossings, numbers, peak_orders
 from gearlube.studies.sweep.point import failed_point
 from gearlube.studies.sweep.report import sweep_report, tables
 from gearlube.studies.sweep.settings import SweepSettings, quick_sweep_settings
@@ -50,6 +50,26 @@ def test_largest_mesh_order_is_the_one_put_in_and_its_place_is_told(sweep):
     assert one.level == WARNING  # the mode lies 5 % above
     assert "5 % below the nearest natural frequency, 'gear axial'" in one.detail
     assert [p.order for p in peak_orders(louder)] == [1, 2, 3]
+
+
+def test_a_resonance_of_the_car_is_named_with_what_the_order_is_without_it(sweep):
+    springs = ["mesh", "bearings", "propshaft", "half-shafts"]
+    strain = [[0.1, 0.2, 0.6, 0.1], [0.9, 0.1, 0.0, 0.0]]
+    coupled = sweep.assign(
+        mode_strain=(("mode", "spring"), strain), dte_order_held=0.25e-6
+    ).assign_coords(spring=springs)
+    detail = found(coupled, "largest mesh order").detail
+    assert "70 % of its strain energy is in springs of the car, most in the propshaft." in detail
+    assert "0.250 µm there, 4.0 times less" in detail  # the signal has 1 um of order 1
+    assumed = coupled.assign_attrs(inputs_assumed="driveline.propshaft_stiffness_n_m_per_rad = 3e4")
+    assert "whose stiffnesses are assumed" in found(assumed, "largest mesh order").detail
+    of_axle = coupled.assign(mode_strain=(("mode", "spring"), strain[::-1]))
+    assert "springs of the car" not in found(of_axle, "largest mesh order").detail
+
+
+def test_a_peak_between_distant_speeds_says_that_it_may_be_larger(sweep):
+    # 60 km/h has its neighbours at 20 and 100 km/h
+    assert "up to 40 km/h apart here" in found(sweep, "largest mesh order").detail
 
 
 def test_a_peak_away_from_every_mode_is_no_warning(sweep):
@@ -196,11 +216,11 @@ def test_a_sweep_has_its_known_key_numbers_and_findings():
     ]
     assert_numbers(numbers(made()), known)
     expected = [
-        (WARNING, "is order 1 … The others: … below the nearest … 'axial' … resonance",
+        (WARNING, "is order 1 … The others: … below the nearest … 'axial' … resonance … apart here",
          "1, 7.00 µm, 60 km/h, 300 Hz, 2000 N, 2, 0.500 µm, 60 km/h, 3, 0.0700 µm, 60 km/h, "
-         "9 %, 330 Hz"),  # 300 to 330
+         "9 %, 330 Hz, 40 km/h"),  # 300 to 330
         (NOTE, "Bearing 1 shakes … mesh order 3",
-         "1, 3, 53.0 N, 60 km/h, 900 Hz, 2000 N"),
+         "1, 3, 53.0 N, 60 km/h, 900 Hz, 2000 N, 40 km/h"),
         # 310 Hz over 5 Hz per km/h: 62, 31 and 20.7 km/h
         (NOTE, "meet natural frequencies … order 3 with 'axial' … order 2 with 'axial'",
          "1, 3, 2, 20, 60 km/h, 0, 1, 1000 N, 3, 310 Hz, 21 km/h, 2, 310 Hz, 31 km/h"),

@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 from gearlube.studies.sweep.datasets import load_sweep, merge
+from gearlube.studies.sweep.peaks import peak_orders
 from gearlube.studies.sweep.run import SweepModel, run_sweep
 from gearlube.studies.sweep.settings import SweepSettings
 from gearlube_core.errors import GearLubeError, InterruptedRunError, ParameterError
@@ -73,6 +74,41 @@ def copied(finished, tmp_path):
     """Folder, FMU and dataset of a finished sweep, to go on from."""
     out, fmu, dataset, _ = finished
     return shutil.copytree(out, tmp_path / "out"), fmu, dataset
+
+
+def resonance(fmu, speed_kmh, preload, settings):
+    """One mesh order of the transmission error that rings at 51.6 km/h with 3 % of damping."""
+    ratio = speed_kmh / 51.6
+    amplitude = 1e-6 * abs(ratio**2 / (1.0 - ratio**2 + 0.06j * ratio))
+    still = stand_in.small_point(fmu, speed_kmh, preload, settings)
+    lines = {
+        "mesh_frequency": 5.0 * speed_kmh,
+        "frequency": ("bin", [0.0, 5.0 * speed_kmh]),
+        "dte_spectrum": ("bin", [0.0, amplitude]),
+    }
+    return still.drop_vars(lines, errors="ignore").assign(lines)
+
+
+def test_speeds_are_added_around_the_largest_order_until_its_neighbours_are_near(
+    fmu, tmp_path, in_this_process
+):
+    coarse, fine = range(20, 101, 5), range(20, 101)
+    options = {"preloads": (2500.0,)}
+    dataset, seen = sweep(
+        fmu, tmp_path / "out", resonance, speeds_kmh=coarse, peak_step_kmh=1.0, **options
+    )
+    whole, _ = sweep(fmu, None, resonance, speeds_kmh=fine, **options)
+    top, expected = (peak_orders(one)[0] for one in (dataset, whole))
+    assert top == expected
+    assert top.speed_kmh == 52.0
+    # of the four speeds on each side of a speed of the grid fewer are run than all
+    assert len(computed(seen)) <= 17 + 5
+    assert set(dataset["speed_kmh"].values) > set(map(float, coarse))
+    again, seen = sweep(
+        fmu, tmp_path / "out", resonance, speeds_kmh=coarse, peak_step_kmh=1.0, **options
+    )
+    assert computed(seen) == []
+    xr.testing.assert_equal(again["dte_spectrum"], dataset["dte_spectrum"])
 
 
 def test_points_are_laid_out_over_preload_and_speed_with_ragged_spectra_padded(finished):

@@ -21,8 +21,7 @@ from gearlube.studies.loss_map.run import run_loss_map
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube.studies.runup import findings as runup
 from gearlube.studies.sweep import findings as sweep
-from gearlube.studies.sweep.datasets import GRID
-from gearlube.studies.sweep.run import with_churning_regime
+from gearlube.studies.sweep.datasets import GRID, with_churning_regime
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.dynamics.hypoid_axle.uncertain import by_one_film, changed_axle

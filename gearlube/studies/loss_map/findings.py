@@ -233,8 +233,8 @@ def _film(dataset: xr.Dataset) -> list[Finding]:
             film_ratio_level(least),
             f"The smallest film ratio λ of a flank is {quantity_text(least, '', 2)}, at "
             f"{words_of(worst)}.",
-            f"It is below {MIXED:g}, where asperities carry much of the load, at {mixed:.0f} % of "
-            "the points.",
+            f"It is below {MIXED:g}, where asperities are in contact over much of the flank, at "
+            f"{mixed:.0f} % of the points.",
         )
     ]
 

@@ -104,6 +104,16 @@ def sweep(
     driver: Annotated[
         str, typer.Option(help="vehicle: coupled driveline; hold: road load and speed hold.")
     ] = "vehicle",
+    peak_step: Annotated[
+        float,
+        typer.Option(
+            min=0.0,
+            max=20.0,
+            help="Add speeds around the largest mesh orders until they lie this far apart there "
+            "[km/h]; 0: none. Not with --quick.",
+            metavar="KMH",
+        ),
+    ] = 1.0,
     jobs: JobsOption = None,
     scheduler: Annotated[
         str | None,
@@ -229,6 +239,7 @@ def sweep(
                 out=out,
                 jobs=jobs,
                 scheduler=scheduler,
+                peak_step_kmh=0.0 if quick else peak_step,
                 progress=progress,
                 command_line=command_line(),
             )

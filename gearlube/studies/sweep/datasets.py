@@ -11,7 +11,8 @@ import xarray as xr
 
 from gearlube.output.csv_text import csv_text, number_text
 from gearlube.output.units import heading
-from gearlube.report.churning import REGIME
+from gearlube.report.churning import REGIME, churning_regime
+from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset, write_text
 from gearlube_core.units import kmh_to_ms
 
@@ -110,7 +111,11 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "roller_zone_mean": ("N", "mean load of roller 1 at this cage angle"),
     "roller_zone_min": ("N", "smallest load of roller 1 at this cage angle"),
     "roller_zone_max": ("N", "largest load of roller 1 at this cage angle"),
-    "mode_frequency": ("Hz", "undamped natural frequency at the mean mesh stiffness"),
+    "dte_order_held": ("m", "largest mesh order of the transmission error, without the car"),
+    "bearing_force_order_held": ("N", "largest mesh order of the bearing force, without the car"),
+    "mode_frequency": ("Hz", "natural frequency at the mean mesh stiffness"),
+    "mode_damping": ("1", "damping ratio of a natural mode"),
+    "mode_strain": ("1", "share of a spring in the potential energy of a mode"),
 }
 _POINT_COORDINATES = ("speed", "speed_kmh", "preload")
 
@@ -174,6 +179,16 @@ def merge(preloads: Sequence[float], speeds_kmh: Sequence[float], points: Points
     if "status" in dataset:
         dataset["status"] = dataset["status"].fillna(0).astype(np.int64)
     return described(dataset)
+
+
+def with_churning_regime(sweep: xr.Dataset, axle: HypoidAxleParameters) -> xr.Dataset:
+    """Return a sweep with `churning_regime`, where its axle has one and its points have run."""
+    if "pinion_speed" in sweep and "oil_temperature" in sweep:
+        gear_speed = sweep["pinion_speed"] / axle.mesh.ratio
+        regime = churning_regime(axle, sweep["oil_temperature"], gear_speed)
+        if regime is not None:
+            sweep["churning_regime"] = (GRID, regime)
+    return sweep
 
 
 def _room(

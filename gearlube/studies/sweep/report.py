@@ -18,7 +18,7 @@ from gearlube.report.parts import ASSUMED, Cell, Column, Figure, Input, Report, 
 from gearlube.studies.sweep.datasets import SEPARATION_MEANINGS
 from gearlube.studies.sweep.figures import CATALOGUE, Entry
 from gearlube.studies.sweep.findings import findings
-from gearlube.studies.sweep.natural_frequencies import (
+from gearlube.studies.sweep.peaks import (
     ORDERS,
     crossings,
     harmonic_amplitude,
@@ -213,6 +213,7 @@ def _modes(dataset: xr.Dataset) -> list[Table]:
         return []
     preloads = [float(p) for p in dataset["preload"].values]
     first = {(c.mode, c.order): c.speed_kmh for c in found if c.preload == preloads[0]}
+    known = "mode_strain" in dataset
     return [
         Table(
             title="Natural frequencies, and the speeds at which mesh orders meet them",
@@ -220,12 +221,14 @@ def _modes(dataset: xr.Dataset) -> list[Table]:
                 Column("mode"),
                 *(Column(preload_label(p), "Hz", 4) for p in preloads),
                 *(Column(f"order {n} meets it at", "km/h") for n in ORDERS),
+                *([Column("damping ratio", "%", 2), Column("strained springs")] if known else []),
             ],
             rows=[
                 [
                     str(mode),
                     *(float(f) for f in frequencies),
                     *(first.get((str(mode), n)) for n in ORDERS),
+                    *(_damping_and_springs(dataset, str(mode)) if known else ()),
                 ]
                 for mode, frequencies in zip(
                     dataset["mode"].values, dataset["mode_frequency"].values.T, strict=True
@@ -235,6 +238,16 @@ def _modes(dataset: xr.Dataset) -> list[Table]:
             f"{float(dataset['speed_kmh'][0]):g} to {float(dataset['speed_kmh'][-1]):g} km/h.",
         )
     ]
+
+
+def _damping_and_springs(dataset: xr.Dataset, mode: str) -> tuple[float, str]:
+    """Return the damping ratio [%] of a mode and the springs with most of its strain energy."""
+    strain = dataset["mode_strain"].sel(mode=mode)
+    largest = sorted(zip(strain.values, strain["spring"].values, strict=True), reverse=True)
+    words = ", ".join(
+        f"{name} {100.0 * share:.0f} %" for share, name in largest[:3] if share > 0.05
+    )
+    return 100.0 * float(dataset["mode_damping"].sel(mode=mode)[0]), words
 
 
 def write_sweep_report(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
+from itertools import product
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -18,8 +18,6 @@ import xarray as xr
 
 import drivetrain
 from drivetrain.axle_file.axle_file import CarAxle
-from drivetrain.driveline.parameters import DrivelineParameters
-from gearlube.report.churning import churning_regime
 from gearlube.report.films import film_model_attributes
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
@@ -29,23 +27,22 @@ from gearlube.studies.sweep.axle_in_fmu import (
     chosen_axle,
     settings_of,
 )
-from gearlube.studies.sweep.datasets import GRID, described, merge, save
+from gearlube.studies.sweep.datasets import described, merge, save, with_churning_regime
 from gearlube.studies.sweep.fmu_axle import FmuAxle, axle_description
-from gearlube.studies.sweep.natural_frequencies import natural_frequencies
+from gearlube.studies.sweep.natural_frequencies import crank_frequencies, natural_frequencies
+from gearlube.studies.sweep.peaks import held_amplitudes, largest_peaks, speeds_at_peaks
 from gearlube.studies.sweep.point import FINISHED, Place, PointFunction, failed_point, run_point
 from gearlube.studies.sweep.recording import CHANNELS, operation
 from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSettings
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
-from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.input_file.input_file import notes_as_text
-from gearlube_core.progress import Progress, no_progress
+from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.folders import locked_folder
 from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.resumable import DATASETS, ResultStore, resumable_results
-from gearlube_core.units import kmh_to_ms
 
 _SPEED_KMH = 50.0
 
@@ -53,6 +50,8 @@ logger = logging.getLogger(__name__)
 
 MOST_JOBS = 1024
 _MOST_POINTS = 100_000  # some seconds each
+_OF_GRID = 0.7  # of the progress, before the points around peaks
+_MOST_ROUNDS = 6
 _PRELOAD_CURE = "A preload must press; the paper uses 2500 and 6000 N."
 
 
@@ -97,13 +96,13 @@ class SweepModel:
     compile_first : callable, optional
         Compiles the axle before local processes start, so that they do not all do it.
     natural_frequencies : callable, optional
-        Gives the natural frequencies that the figures mark, at the middle speed.
+        Gives the natural modes that the figures mark, at the middle speed.
     """
 
     point: PointFunction = run_point
     compile_first: Callable[[Path, SweepSettings], None] | None = _compile_axle
     natural_frequencies: (
-        Callable[[Sequence[float], float, SweepSettings, CarAxle], xr.DataArray] | None
+        Callable[[Sequence[float], float, SweepSettings, CarAxle], xr.Dataset] | None
     ) = natural_frequencies
 
 
@@ -121,6 +120,7 @@ def run_sweep(
     out: Path | str | None = None,
     jobs: int | None = None,
     scheduler: str | None = None,
+    peak_step_kmh: float = 0.0,
     progress: Progress = no_progress,
     command_line: str = "",
     model: SweepModel = AXLE_MODEL,
@@ -147,6 +147,9 @@ def run_sweep(
         Number of local processes [-]; None: all processors. Not used on a cluster.
     scheduler : str
         Address of a running Dask scheduler, "tcp://host:port".
+    peak_step_kmh : float
+        Speeds are added around the largest mesh orders of transmission error and bearing force
+        until they lie this far apart there [km/h]; 0: none.
     progress : callable
         Called after every point with the share done [-] and a sentence on the point.
     command_line : str
@@ -207,16 +210,34 @@ def run_sweep(
         progress(0.0, "starting the first points")
         directory = stack.enter_context(unpacked(archive))
         guid, kind = fmu_guid(directory), fmu_kind(directory)
-        keys = {
-            (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
-            for p in loads
-            for v in speeds
-        }
+        keys = _keys(product(speeds, loads), settings, guid)
         compute, pool = _workers(archive, directory, settings, model, jobs, scheduler)
         began = time.monotonic()
-        points, computed = _points(keys, compute, pool, folder, progress)
+        grid = part_of(progress, 0.0, _OF_GRID) if peak_step_kmh else progress
+        points, computed = _points(keys, compute, pool, folder, grid)
+        for _ in range(_MOST_ROUNDS if peak_step_kmh else 0):
+            added = speeds_at_peaks(merge(loads, speeds, points), peak_step_kmh)
+            if not added:
+                break
+            speeds = sorted({*speeds, *added})
+            around, more = _points(
+                _keys(product(added, loads), settings, guid),
+                compute,
+                pool,
+                folder,
+                part_of(progress, _OF_GRID, 1.0),
+            )
+            points |= around
+            computed += more
         wall_time = time.monotonic() - began
-        mode_frequency = modes()
+        found_modes = modes()
+        held: dict[Place, xr.Dataset] = {}
+        if peak_step_kmh and settings.driver == "vehicle":
+            free = replace(settings, driver="hold")
+            compute, pool = _workers(archive, directory, free, model, jobs, scheduler)
+            tops = largest_peaks(merge(loads, speeds, points))
+            places = {(top.speed_kmh, top.preload) for top in tops.values()}
+            held, _ = _points(_keys(places, free, guid), compute, pool, folder, no_progress)
     of_axle = car_axle_at(car_axle, settings, loads[0])
     sweep = merge(loads, speeds, points).assign_attrs(
         {
@@ -238,10 +259,12 @@ def run_sweep(
             **{f"setting_{name}": value for name, value in settings.as_dict().items()},
         }
     )
-    if mode_frequency is not None:
-        sweep["mode_frequency"] = mode_frequency
+    if found_modes is not None:
+        sweep = sweep.assign(found_modes.variables).assign_attrs(sweep.attrs)
+    for name, amplitude in held_amplitudes(sweep, held).items():
+        sweep[name] = amplitude
     if settings.driver == "vehicle":
-        crank = _crank_frequencies(car_axle.driveline, speeds)
+        crank = crank_frequencies(car_axle.driveline, speeds)
         sweep["crank_frequency"] = ("speed", crank)
     described(with_churning_regime(sweep, of_axle.axle))
     if folder is not None:
@@ -249,14 +272,11 @@ def run_sweep(
     return sweep
 
 
-def with_churning_regime(sweep: xr.Dataset, axle: HypoidAxleParameters) -> xr.Dataset:
-    """Return a sweep with `churning_regime`, where its axle has one and its points have run."""
-    if "pinion_speed" in sweep and "oil_temperature" in sweep:
-        gear_speed = sweep["pinion_speed"] / axle.mesh.ratio
-        regime = churning_regime(axle, sweep["oil_temperature"], gear_speed)
-        if regime is not None:
-            sweep["churning_regime"] = (GRID, regime)
-    return sweep
+def _keys(places: Iterable[Place], settings: SweepSettings, guid: str) -> dict[Place, str]:
+    return {
+        (v, p): settings.key(speed_kmh=v, preload=p, fmu_guid=guid, version=code_version())
+        for v, p in places
+    }
 
 
 def _modes_aside(
@@ -266,8 +286,8 @@ def _modes_aside(
     speed_kmh: float,
     settings: SweepSettings,
     car_axle: CarAxle,
-) -> Callable[[], xr.DataArray | None]:
-    """Begin the natural frequencies in a process of their own; return what waits for them.
+) -> Callable[[], xr.Dataset | None]:
+    """Begin the natural modes in a process of their own; return what waits for them.
 
     They compile kernels when the machine has none yet, beside the first points.
     """
@@ -278,11 +298,11 @@ def _modes_aside(
     )
     found = executor.submit(model.natural_frequencies, preloads, speed_kmh, settings, car_axle)
 
-    def result() -> xr.DataArray | None:
+    def result() -> xr.Dataset | None:
         try:
             return found.result()
         except BrokenExecutor as error:
-            logger.warning("No natural frequencies, their process died: %s", error)
+            logger.warning("No natural modes, their process died: %s", error)
             return None
 
     return result
@@ -371,26 +391,3 @@ def _failure(place: Place, error: Exception) -> xr.Dataset:
     if isinstance(error, BrokenExecutor):
         return failed_point(*place, f"The process of this point died several times: {error}")
     return failed_point(*place, f"{type(error).__name__}: {error}")
-
-
-def _crank_frequencies(driveline: DrivelineParameters, speeds_kmh: Sequence[float]) -> list[float]:
-    """Return the rotation frequency of the crankshaft [Hz] in the gear of each speed [km/h].
-
-    Examples
-    --------
-    >>> from drivetrain.axle_file.read_axle import read_axle
-    >>> car = read_axle("mohammadpour_2015").driveline
-    >>> [round(one, 1) for one in _crank_frequencies(car, [40.0, 80.0])]  # gears 2 and 5
-    [32.1, 24.5]
-    """
-    road = driveline.road_load
-    return [_crank(driveline, road.pinion_speed(kmh_to_ms(one))) for one in speeds_kmh]
-
-
-def _crank(driveline: DrivelineParameters, shaft: float) -> float:
-    """Return the crank frequency [Hz] at a propshaft speed [rad/s]; NaN where no gear suits."""
-    try:
-        gear = driveline.gearbox.gear_for(shaft, driveline.engine)
-    except ParameterError:
-        return math.nan
-    return driveline.gearbox.ratios[gear - 1] * shaft / (2.0 * math.pi)

@@ -192,11 +192,3 @@ def named_modes(axle: HypoidAxle, oil_temperature: float, torque: float) -> tupl
             name += f" {int(np.searchsorted(same, m)) + 1}"
         found.append(AxleMode(name, float(frequency), float(ratios[m]), shapes[:, m]))
     return tuple(found)
-
-
-def modes(axle: HypoidAxle, oil_temperature: float, torque: float) -> dict[str, float]:
-    """Return the natural frequencies [Hz] of the axle by the names of `AxleMode`.
-
-    Parameters as in `linearise`.
-    """
-    return {one.name: one.frequency for one in named_modes(axle, oil_temperature, torque)}

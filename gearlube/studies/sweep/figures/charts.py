@@ -22,7 +22,7 @@ from gearlube.plotting.style import (
 )
 from gearlube.plotting.words import SOURCE_COLOURS, SOURCE_WORDS, source_colour
 from gearlube.report.charts import Axis, Line, add_line, add_stack, line_chart, mark_level, panels
-from gearlube.studies.sweep.natural_frequencies import ORDERS, harmonic_amplitude
+from gearlube.studies.sweep.peaks import ORDERS, harmonic_amplitude
 from gearlube_core.arrays import Array
 
 _LEAST_POWER = 1e-3  # W, that the axis reaches

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import house_style, new_figure, preload_label, series, speed_limits
-from gearlube.studies.sweep.natural_frequencies import harmonic_amplitude
+from gearlube.studies.sweep.peaks import harmonic_amplitude
 
 HARMONICS = (1, 2, 3)
 
