@@ -232,6 +232,8 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
     point = dataset.isel(preload=row, speed=column)
     loss = point["loss"].values
     parts = largest_losses(dataset["source"].values, loss)
+    low, high = (float(point.get(f"loss_{end}", np.nan)) for end in ("low", "high"))
+    band = f" (95 %: {low:.0f} to {high:.0f} W)" if high > low else ""
     efficiency = dataset["efficiency_axle"]
     losing = {
         str(name)
@@ -241,7 +243,7 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             NOTE,
-            f"The largest loss is {quantity_text(float(total.values[row, column]), 'W')} at "
+            f"The largest loss is {quantity_text(float(total.values[row, column]), 'W')}{band} at "
             f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N: "
             f"{parts}.",
             f"The efficiency of the axle is {100.0 * _least(efficiency):.1f} to "

@@ -213,20 +213,16 @@ def run_sweep(
         keys = _keys(product(speeds, loads), settings, guid)
         compute, pool = _workers(archive, directory, settings, model, jobs, scheduler)
         began = time.monotonic()
-        grid = part_of(progress, 0.0, _OF_GRID) if peak_step_kmh else progress
-        points, computed = _points(keys, compute, pool, folder, grid)
+        done = _OF_GRID if peak_step_kmh else 1.0
+        points, computed = _points(keys, compute, pool, folder, part_of(progress, 0.0, done))
         for _ in range(_MOST_ROUNDS if peak_step_kmh else 0):
             added = speeds_at_peaks(merge(loads, speeds, points), peak_step_kmh)
             if not added:
                 break
             speeds = sorted({*speeds, *added})
-            around, more = _points(
-                _keys(product(added, loads), settings, guid),
-                compute,
-                pool,
-                folder,
-                part_of(progress, _OF_GRID, 1.0),
-            )
+            now = _keys(product(added, loads), settings, guid)
+            before, done = done, 0.5 * (1.0 + done)
+            around, more = _points(now, compute, pool, folder, part_of(progress, before, done))
             points |= around
             computed += more
         wall_time = time.monotonic() - began
