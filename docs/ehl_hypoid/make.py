@@ -228,8 +228,9 @@ def main(work: Path) -> None:
     put_grids(page, work, CASE)
     put_findings(page, rows["drive"], sets)
     page.rows("Mean, over solution", means(list(rows.values())))
-    page.rows("Quantity | Of", cells(rows["drive"]), "\n## Drive flank, 40 N.m, 1377 rpm\n")
-    hot = [row for row in rows["thermal"] if "thermal" in row.source]
+    drive = [row for row in rows["drive"] if row.unit != "over solution"]
+    page.rows("Quantity | Of", cells(drive), "\n## Drive flank, 40 N.m, 1377 rpm\n")
+    hot = [row for row in rows["thermal"] if row.source.startswith(("thermal", "solution, th"))]
     page.rows("Quantity | Of", cells(hot), "\n## With heat in the steady films\n")
     page.write()
     for picture in sorted((work / "drive" / "figures").glob("*.png")):

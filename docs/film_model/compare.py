@@ -39,7 +39,7 @@ CASES = (
 )
 # flanks warmer than the oil by a resistance [K/W]; points of speed [km/h], torque [N.m], oil [degC]
 BULK_RESISTANCES, BULK_STRESS = (0.0, 0.02, 0.04), 2.0
-BULK_POINTS = ((100.0, 100.0, 95.0), (100.0, 300.0, 95.0))
+BULK_POINTS = ((100.0, 300.0, 95.0),)
 HEAD = (
     "case", "oil_degc", "speed_km_h", "torque_n_m", "mesh_efficiency_percent", "bound_percent",
     "friction_w", "boundary_w", "least_film_um", "least_film_ratio", "share_outside_percent",

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from docs.film_model.compare import axle_of, found
-from docs.film_model.outside_solves import OILS
 from docs.page import Page
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.film_model.plan import FilmPlan
@@ -30,6 +29,7 @@ from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.oil.oil_file import read_oil
 from gearlube_core.units import kmh_to_ms
 
+OIL = "mohammadpour_2015"
 STRESSES = np.array([2.0, 3.0, 5.0, 7.0, 10.0])  # MPa
 SPEEDS = np.array([20.0, 60.0, 100.0])  # km/h
 TORQUES = np.array([100.0])  # N.m
@@ -126,7 +126,7 @@ def limit_rows(by_oil: dict[str, tuple[Array, Array, Array]]) -> list[list[str]]
 def main() -> None:
     """Compute all and write it."""
     made = efficiencies()
-    by_oil = {name: frictions(name) for name in OILS}
+    by_oil = {OIL: frictions(OIL)}
     page = Page("film_model_axle")
     page.rows("efficiency of the mesh [%], 95 °C", efficiency_rows(made))
     page.rows("share of the flanks' friction loss with", limit_rows(by_oil))
