@@ -39,16 +39,11 @@ def cycle(store: Store, design: str) -> March:
     return drawn_cycle(store, design).whole()
 
 
-def drawn_crowned(store: Store, start: float) -> March:
-    """Return as much of the cycle of design A as was found for F_o over F."""
-    if start == 0.0:
-        return drawn_cycle(store, "a")
-    return store.march(FilmCase(crown_start=start, nodes=CYCLE), 0, 575)
-
-
 def crowned(store: Store, start: float) -> March:
     """Return the whole cycle of design A for F_o over F."""
-    return drawn_crowned(store, start).whole()
+    if start == 0.0:
+        return cycle(store, "a")
+    return store.march(FilmCase(crown_start=start, nodes=CYCLE), 0, 575).whole()
 
 
 @CYCLES("J1")

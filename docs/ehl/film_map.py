@@ -28,11 +28,7 @@ LOADS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 MATERIALS = (2.5, 5.0, 10.0, 15.0)
 ANGLES = (0.0, 30.0, 60.0, 90.0)  # of entrainment against the short axis, degrees
 TURNED = tuple((k, M, L) for k in (2.0, 3.0) for M, L in ((20.0, 5.0), (50.0, 10.0), (200.0, 10.0)))
-REFINED = ((1.0, 20.0, 5.0), (1.0, 200.0, 10.0), (3.0, 100.0, 10.0), (8.0, 200.0, 15.0))
-COARSE, FINE, FINEST = 129, 257, 513
-# an order of magnitude of load, as in the fits of Hamrock and Dowson and of Chittenden et al.
-FITTED_LOADS = (1e-7, 1e-6)  # W = F/(E' R_x^2)
-FITTED_SPEEDS = (5e-13, 1e-10)  # U = eta0 u/(E' R_x)
+COARSE, FINE = 129, 257
 
 RADIUS = 0.01  # m, along the short axis
 REDUCED_MODULUS = 2.26e11  # Pa
@@ -66,12 +62,6 @@ class Contact:
     def load_group(self) -> float:
         """Return W."""
         return self.M * (2.0 * self.speed_group) ** 0.75
-
-    @property
-    def fitted(self) -> bool:
-        """Return whether load and speed lie where the formulas were fitted."""
-        (low, high), (slow, fast) = FITTED_LOADS, FITTED_SPEEDS
-        return low <= self.load_group <= high and slow <= self.speed_group <= fast
 
     @property
     def rigid(self) -> bool:
@@ -157,18 +147,12 @@ def turned_contacts() -> list[Contact]:
     return [Contact(*group, angle) for group in TURNED for angle in ANGLES]
 
 
-def refined_contacts() -> list[Contact]:
-    """Return the contacts that are solved on a third grid."""
-    return [Contact(*group) for group in REFINED]
-
-
 Films = dict[tuple[Contact, int], Film]
 
 
 def all_films(kept: KeptFilms) -> Films:
     """Return the films of the map; those that are missing and may not be solved are left out."""
     wanted = [(c, n) for c in (*map_contacts(), *turned_contacts()) for n in (COARSE, FINE)]
-    wanted += [(c, FINEST) for c in refined_contacts()]
     films: Films = {}
     for contact, nodes in dict.fromkeys(wanted):
         name = "_".join(f"{one:g}" for one in (*astuple(contact), nodes))
@@ -193,7 +177,6 @@ class Spread:
     count: int
     failed: int
     mean: float  # of film over formula, of those that converged
-    deviation: float
     low: float
     high: float
     within: tuple[float, ...]  # shares of all within the limits asked for
@@ -203,12 +186,10 @@ def spread(ratios: Sequence[float], failed: int, limits: Iterable[float]) -> Spr
     """Return the spread of ratios, with as many failures more."""
     count = len(ratios) + failed
     mean = sum(ratios) / len(ratios) if ratios else math.nan
-    squares = sum((ratio - mean) ** 2 for ratio in ratios)
     return Spread(
         count,
         failed,
         mean,
-        math.sqrt(squares / max(len(ratios) - 1, 1)),
         min(ratios, default=math.nan),
         max(ratios, default=math.nan),
         tuple(sum(abs(ratio - 1.0) <= limit for ratio in ratios) / count for limit in limits),

@@ -209,7 +209,6 @@ def test_films_are_kept_and_missing_ones_left_out(tmp_path, monkeypatch):
     for name, value in {
         "map_contacts": lambda: [FILM.contact],
         "turned_contacts": list,
-        "refined_contacts": list,
         "solve": lambda contact, nodes: made[nodes],
     }.items():
         monkeypatch.setattr(f"docs.ehl.film_map.{name}", value)
