@@ -39,6 +39,8 @@ from gearlube_core.dynamics.train.shaft import Shaft as Shaft
 from gearlube_core.dynamics.train.contact_stations import contact_fields as contact_fields
 from gearlube_core.dynamics.train.response import frequency_response as frequency_response
 from gearlube_core.dynamics.train.response import order_response as order_response
+from gearlube_core.shafts.rotor_matrices import read_rotor as read_rotor
+from gearlube_core.shafts.rotor_matrices import rotor_beam as rotor_beam
 from gearlube_core.shafts.section import ShaftDisc as ShaftDisc
 from gearlube_core.shafts.section import ShaftMaterial as ShaftMaterial
 from gearlube_core.shafts.section import ShaftSection as ShaftSection

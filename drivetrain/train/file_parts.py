@@ -31,6 +31,8 @@ from gearlube_core.input_file.field_notes import Declared
 from gearlube_core.input_file.input_file import Section, read_toml
 from gearlube_core.mesh_table.line_mesh import LineMesh
 from gearlube_core.mesh_table.line_mesh_file import named_line_mesh, read_line_mesh
+from gearlube_core.shafts.beam import Beam
+from gearlube_core.shafts.rotor_matrices import read_rotor
 
 Text = Annotated[str, Field(min_length=1)]
 _Value = TypeVar("_Value")
@@ -184,6 +186,21 @@ class HousingModel(Section):
         return read_reduced_model(**{key: getattr(self, key) for key in HousingModel.model_fields})
 
 
+class RotorMatrices(Section):
+    """Matrices of a shaft from another program."""
+
+    files: ClassVar[tuple[str, ...]] = ("matrices_file",)
+
+    matrices_file: Text | None = Field(
+        default=None,
+        description="Matrices of another program (.npz) instead of sections and discs",
+    )
+
+    def read(self) -> Beam | None:
+        """Return the rotor, or None."""
+        return None if self.matrices_file is None else read_rotor(self.matrices_file)
+
+
 @dataclass(frozen=True)
 class _Reader(Generic[_Value]):
     """How a field that is a part is read.
@@ -217,6 +234,7 @@ READERS: Mapping[Any, _Reader[Any]] = {
     HypoidAxleParameters: _Reader(HypoidGears, HypoidGears.read),
     ReducedModel: _Reader(HousingModel, HousingModel.read),
     FilmModel | None: _Reader(RollerFilmModel, RollerFilmModel.read),
+    Beam | None: _Reader(RotorMatrices, RotorMatrices.read),
     RippleTable | None: _Reader(Ripple, Ripple.read),
     Bearing: _Reader(BearingSection, BearingSection.bearing, nested=True),
 }

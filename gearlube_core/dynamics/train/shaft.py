@@ -13,10 +13,11 @@ from gearlube_core.dynamics.train.part import GROUND, AxisPlace, Body, Element, 
 from gearlube_core.errors import ParameterError
 from gearlube_core.helical_geometry.gear_body import DAMPING_RATIO, POSITION
 from gearlube_core.number import Number, check_fields
-from gearlube_core.shafts.beam import shaft_beam
+from gearlube_core.shafts.beam import Beam, shaft_beam
 from gearlube_core.shafts.free_modes import ShaftMotion, shaft_motion
 from gearlube_core.shafts.section import ShaftDisc, ShaftMaterial, ShaftSection
 
+_AT_PLACE = 1e-6  # m
 _MOST_ELEMENTS = 600  # of a beam: the time for its modes grows with their third power
 _LIMIT = Number("Hz", 0.0, 1e6, text="Modes up to this frequency move; 0: the shaft is rigid")
 _LONGEST = Number("m", 0.0, 10.0, text="Longest element of the beam; 0: a quarter of the least "
@@ -35,6 +36,7 @@ class Shaft:
     name : str
     sections : sequence of ShaftSection
         Cylinders along z. They must meet; where they overlap they add up, as a hub on its shaft.
+        None with a `rotor`.
     nodes : mapping
         Places of bearings and gears along z [m], by name.
     discs : sequence of ShaftDisc
@@ -49,6 +51,8 @@ class Shaft:
         Whether gyroscopic moments act.
     longest_element : float
         Of the beam [m]; 0: a quarter of the least outer diameter.
+    rotor : Beam, optional
+        Instead of sections and discs, as from `rotor_beam`: matrices of another program.
 
     Raises
     ------
@@ -70,7 +74,7 @@ class Shaft:
     """
 
     name: str
-    sections: tuple[ShaftSection, ...]
+    sections: tuple[ShaftSection, ...] = ()
     nodes: Mapping[str, Annotated[float, POSITION._replace(shown="mm")]]
     discs: tuple[ShaftDisc, ...] = ()
     material: ShaftMaterial = field(default_factory=ShaftMaterial)
@@ -80,15 +84,36 @@ class Shaft:
     )
     gyroscopic: bool = True
     longest_element: Annotated[float, _LONGEST] = 0.0
+    rotor: Beam | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         check_fields(self)
-        if not self.sections:
-            raise ParameterError(f"sections of {self.name} must have at least one, got none.")
+        if (self.rotor is None) != bool(self.sections) or (self.rotor and self.discs):
+            raise ParameterError(
+                f"sections of {self.name} must have at least one, or none and no discs beside a "
+                f"rotor of matrices, got {len(self.sections)} and {len(self.discs)} discs."
+            )
         if not self.nodes:
             raise ParameterError(
                 f"nodes of {self.name} must name at least one place of a bearing or gear, got none."
             )
+        for node in self.nodes:
+            if "." in node:
+                raise ParameterError(
+                    f"nodes of {self.name} must have names without a point, got {node!r}."
+                )
+        if self.rotor is None:
+            self._check_sections()
+            return
+        for node, place in self.nodes.items():
+            nearest = self.rotor.places[np.argmin(abs(self.rotor.places - place))]
+            if abs(nearest - place) > _AT_PLACE:
+                raise ParameterError(
+                    f"node {node} of {self.name} must be at a place of its matrices, got "
+                    f"{1e3 * place:g} mm. The nearest one is {1e3 * nearest:g} mm."
+                )
+
+    def _check_sections(self) -> None:
         ordered = sorted(self.sections, key=lambda one: one.start)
         end = ordered[0].start
         for one in ordered:
@@ -98,11 +123,6 @@ class Shaft:
                     f"{1e3 * one.start:g} mm."
                 )
             end = max(end, one.end)
-        for node in self.nodes:
-            if "." in node:
-                raise ParameterError(
-                    f"nodes of {self.name} must have names without a point, got {node!r}."
-                )
         places = {f"node {name}": place for name, place in self.nodes.items()}
         places |= {f"disc {i + 1}": one.position for i, one in enumerate(self.discs)}
         for what, place in places.items():
@@ -126,7 +146,9 @@ class Shaft:
     def motion(self) -> ShaftMotion:
         """Return its mass and inertia, and its modes at the nodes."""
         places = list(self.nodes.values())
-        beam = shaft_beam(self.sections, self.discs, places, self.material, self._longest())
+        beam = self.rotor or shaft_beam(
+            self.sections, self.discs, places, self.material, self._longest()
+        )
         return shaft_motion(beam, np.array(places), self.highest_frequency)
 
     def members(self) -> tuple[list[Body], list[Element]]:
