@@ -209,6 +209,9 @@ def test_the_files_hold_the_same_cycle(out):
     assert len(parts) == found.sizes["source"]
     assert sum(parts) == pytest.approx(kj, rel=1e-5)
     assert (out / "figures" / "drive_cycle.png").stat().st_size > 10_000
+    one = next(row["value"] for row in summary if row["quantity"] == "efficiency as one number")
+    for name in ("fastsim.yaml", "co2mpas.csv"):
+        assert f"{float(one):.6f}" in (out / name).read_text()
 
 
 def test_the_figure_says_what_is_not_modelled(out):

@@ -85,7 +85,8 @@ def drive_cycle(
 ) -> None:
     """Drive a car over a cycle: energy lost in its axle by source, and the oil temperature.
 
-    Writes drive_cycle.nc, drive_cycle.csv, summary.csv, report.html and a figure.
+    Writes drive_cycle.nc, drive_cycle.csv, summary.csv, fastsim.yaml, co2mpas.csv, report.html and
+    a figure.
     """
     if example:
         print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")

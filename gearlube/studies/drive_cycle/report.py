@@ -221,7 +221,14 @@ def cycle_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
         tables=_tables(dataset),
         inputs=[*_settings(dataset), *inputs],
         limits=_LIMITS,
-        files=("drive_cycle.nc", "drive_cycle.csv", "summary.csv", "figures/"),
+        files=(
+            "drive_cycle.nc",
+            "drive_cycle.csv",
+            "summary.csv",
+            "fastsim.yaml",
+            "co2mpas.csv",
+            "figures/",
+        ),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,7 +30,14 @@ from gearlube.studies.drive_cycle.spread import (
     cycle_spread,
     uncertain_inputs,
 )
-from gearlube.studies.drive_cycle.tables import SUMMARY_HEAD, series_rows, summary_rows
+from gearlube.studies.drive_cycle.tables import (
+    SUMMARY_HEAD,
+    co2mpas_text,
+    constant_efficiency,
+    fastsim_text,
+    series_rows,
+    summary_rows,
+)
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from gearlube_core.errors import ParameterError
@@ -207,8 +215,8 @@ def run_cycle(
     settings
         Car, cycle, temperatures, brakes, heat.
     folder
-        Folder for drive_cycle.nc, drive_cycle.csv, summary.csv and figures; None: nothing is
-        written.
+        Folder for drive_cycle.nc, drive_cycle.csv, summary.csv, fastsim.yaml, co2mpas.csv and
+        figures; None: nothing is written.
     progress
         Called with the share that is done and a sentence.
 
@@ -272,6 +280,11 @@ def run_cycle(
         write_dataset(dataset, folder / "drive_cycle.nc")
         write_text(csv_text(*series_rows(dataset)), folder / "drive_cycle.csv")
         write_text(csv_text(SUMMARY_HEAD, summary_rows(dataset)), folder / "summary.csv")
+        one = constant_efficiency(dataset)
+        if math.isfinite(one):
+            ratio = settings.car.driveline.road_load.final_drive.ratio
+            write_text(fastsim_text(one, settings.cycle.name), folder / "fastsim.yaml")
+            write_text(co2mpas_text(one, ratio), folder / "co2mpas.csv")
         save_cycle_figures(dataset, folder / "figures")
     return dataset
 

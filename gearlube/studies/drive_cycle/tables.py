@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import xarray as xr
 
+from gearlube.output.csv_text import csv_text
 from gearlube.plotting.range_words import range_words
 from gearlube.plotting.words import source_words
 from gearlube.report.cycle import WH, step_rows
+from gearlube_core.units import rads_to_rpm
 
 SUMMARY_HEAD = ("quantity", "value", "unit", "low", "high")
 _NOTHING = 1e-6  # kJ, Wh
@@ -50,6 +53,7 @@ def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
         f"{float(dataset[f'efficiency_{one}']):.6g}" if drawn else "" for one in ("low", "high")
     ]
     rows.append(("efficiency", f"{float(dataset['efficiency']):.6g}", "1", *bars))
+    rows.append(("efficiency as one number", f"{constant_efficiency(dataset):.6g}", "1", "", ""))
     rows.append(
         ("oil temperature at the end", f"{end[0]:.5g}", "degC", *(f"{t:.5g}" for t in end[1:]))
     )
@@ -60,6 +64,37 @@ def summary_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
                 (f"share of the {words} outside {output}", _number(float(one)), "1", "", "")
             )
     return rows
+
+
+def constant_efficiency(dataset: xr.Dataset) -> float:
+    """Return the one efficiency [-] with which an axle loses the energy of a cycle.
+
+    FASTSim and CO2MPAS take one number: the power of the shaft is that of the wheels divided by it
+    in driving and times it in braking. So lost = a (1/eta - 1) + b (1 - eta), with the energy a to
+    the wheels and b from them. NaN where more is lost than goes through.
+    """
+    speed = dataset["pinion_speed"].values / rads_to_rpm(1.0)
+    to_wheels = speed * dataset["pinion_torque"].values - dataset["loss"].values.sum(axis=-1)
+    energy = 1e-3 * dataset["duration"].values * to_wheels
+    a, b = float(energy[energy > 0.0].sum()), -float(energy[energy < 0.0].sum())
+    rest = float(dataset["energy_lost"].sum()) + a - b
+    root = math.hypot(rest, 2.0 * math.sqrt(a * b))
+    eta = 2.0 * a / (rest + root) if rest > 0.0 else (root - rest) / (2.0 * b) if b > 0.0 else 0.0
+    return eta if eta > 0.0 else math.nan
+
+
+def fastsim_text(efficiency: float, cycle: str) -> str:
+    """Return `transmission` of a vehicle file of FASTSim 3: [fastsim_2026]."""
+    return (
+        f"# Losses of the axle alone over {cycle}. Multiply by the efficiency of a gearbox.\n"
+        f"transmission:\n  eff_interp: {efficiency:.6f}\n  save_interval: 1\n"
+    )
+
+
+def co2mpas_text(efficiency: float, ratio: float) -> str:
+    """Return the inputs of the final drive of CO2MPAS by their names there: [jrc_2025]."""
+    values = {"final_drive_ratio": f"{ratio:.9g}", "final_drive_efficiency": f"{efficiency:.6f}"}
+    return csv_text(("parameter", "value"), values.items())
 
 
 def range_sentence(dataset: xr.Dataset) -> str:
