@@ -99,6 +99,7 @@ from gearlube_core.oil.film_oil_data import film_oil_of as film_oil_of
 # -- Gear files and mesh tables
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile as HypoidGearFile
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile as HelicalGearFile
+from gearlube_core.rexs.document import RatedLoad as RatedLoad
 from gearlube_core.rexs.exchange import read_rexs as read_rexs
 from gearlube_core.rexs.exchange import write_rexs as write_rexs
 from gearlube_core.mesh_table.table import MeshTable as MeshTable

@@ -15,7 +15,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.input_file.field_notes import field_notes, sentence
 from gearlube_core.rexs.bevel import blank_data, nested
 from gearlube_core.rexs.cylindrical import helical_data, lacking_fields, write_helical
-from gearlube_core.rexs.document import Document, write_blank, write_hypoid
+from gearlube_core.rexs.document import Document, RatedLoad, write_blank, write_hypoid
 from gearlube_core.rexs.model import RexsModel
 from gearlube_core.rexs.stage import ExchangeNote, Stage
 
@@ -115,7 +115,9 @@ def _check_names(given: dict[str, Any], kind: type[HelicalGearFile | BlankFile])
 _WISHES = ("contact", "machine", "relief")  # of a blank file, which REXS has no words for
 
 
-def write_rexs(file: PairFile, path: str | Path) -> tuple[ExchangeNote, ...]:
+def write_rexs(
+    file: PairFile, path: str | Path, load: RatedLoad | None = None
+) -> tuple[ExchangeNote, ...]:
     """Write the macro geometry of a pair as a REXS file; return what could not be written.
 
     Parameters
@@ -124,6 +126,8 @@ def write_rexs(file: PairFile, path: str | Path) -> tuple[ExchangeNote, ...]:
         Gear or blank file.
     path : path
         The .rexs file to write.
+    load : RatedLoad, optional
+        A rating of this pair and its load, which become a load case of REXS 1.7.
 
     Returns
     -------
@@ -133,7 +137,7 @@ def write_rexs(file: PairFile, path: str | Path) -> tuple[ExchangeNote, ...]:
     Raises
     ------
     ParameterError
-        The blank cannot exist.
+        The blank cannot exist, or the rating is of gears of another kind.
 
     Examples
     --------
@@ -146,6 +150,8 @@ def write_rexs(file: PairFile, path: str | Path) -> tuple[ExchangeNote, ...]:
     'source'
     """
     document, notes = _document(file)
+    if load is not None:
+        document.results(load)
     document.write(Path(path))
     return notes
 
