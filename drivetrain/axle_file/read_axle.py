@@ -9,7 +9,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from drivetrain.axle_file.axle_file import AxleFile, CarAxle
+from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.kept_table import KeptTable
+from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import read_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.progress import Progress, no_progress
@@ -59,6 +61,27 @@ def mesh_of(
     """Return the mesh table of an axle file; parameters and errors as in `table_file`."""
     path = table_file(file, folder, jobs=jobs, progress=progress)
     return file.mesh() if path is None else read_mesh_table(path)
+
+
+def gear_file_of(axle: str, gears: str = "") -> HypoidGearFile:
+    """Return the gear file of an axle's gears; both are paths or shipped names.
+
+    Raises
+    ------
+    ParameterError
+        Nothing names a gear file.
+    """
+    named = AxleFile.given(axle).gear_set
+    if not gears and named.gear_file is not None:
+        gears = str(Path(axle).parent / named.gear_file)
+    gears = gears or str(named.mesh_table)
+    if not gears.endswith(".toml") and gears not in HypoidGearFile.shipped():
+        raise ParameterError(
+            "The standard, steps of wear and whine must have the gear file of the axle's hypoid "
+            f"gears, got {gears!r}, which is none. Name a gear file (TOML) in [gear_set] of the "
+            "axle file, or with --gears where the command has it."
+        )
+    return HypoidGearFile.given(gears)
 
 
 def read_axle(

@@ -169,7 +169,7 @@ def damage(
     Lays the numbers of standards and the solved contact side by side. Writes damage.nc, damage.csv,
     summary.csv, report.html and figures.
     """
-    from drivetrain.axle_file.read_axle import read_axle
+    from drivetrain.axle_file.read_axle import gear_file_of, read_axle
     from drivetrain.cycle.traces import DriveCycle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
     from gearlube.damage.bins import cycle_bins, is_bins, joined, read_bins
@@ -179,7 +179,6 @@ def damage(
     from gearlube.damage.settings import (
         DamageSettings,
         check_needed,
-        gear_file_of,
         rated_bearing,
         rated_gears,
         rated_pair,

@@ -7,12 +7,12 @@ import pickle
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
-from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 
-from drivetrain.axle_file.axle_file import AxleFile, CarAxle
+from drivetrain.axle_file.axle_file import CarAxle
+from drivetrain.axle_file.read_axle import gear_file_of
 from gearlube.damage.teeth import Teeth, axle_teeth
 from gearlube_core import __version__
 from gearlube_core.bearings.bearing_type import Bearing
@@ -240,26 +240,6 @@ def rated_pair(
     if material is None:
         return None, None
     return material, gear_file_of(axle, gears).blank()
-
-
-def gear_file_of(axle: str, gears: str = "") -> HypoidGearFile:
-    """Return the gear file of an axle's gears; arguments as in `rated_pair`.
-
-    Raises
-    ------
-    ParameterError
-        Nothing names a gear file.
-    """
-    named = AxleFile.given(axle).gear_set
-    if not gears and named.gear_file is not None:
-        gears = str(Path(axle).parent / named.gear_file)
-    gears = gears or str(named.mesh_table)
-    if not gears.endswith(".toml") and gears not in HypoidGearFile.shipped():
-        raise ParameterError(
-            "The standard, and steps of wear, must have the gear file of the axle's hypoid gears, "
-            f"got {gears!r}, which is none. Name a gear file (TOML) with --gears."
-        )
-    return HypoidGearFile.given(gears)
 
 
 def rated_bearing(size: Bearing, ratings_kn: Sequence[float] | None) -> RatedBearing | None:

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from drivetrain.axle_file.read_axle import read_axle
+from drivetrain.axle_file.read_axle import gear_file_of, read_axle
 from gearlube.damage import wear_steps
 from gearlube.damage.report import damage_report
 from gearlube.damage.run import run_damage
-from gearlube.damage.settings import DamageSettings, gear_file_of
+from gearlube.damage.settings import DamageSettings
 from gearlube.damage.wear_steps import (
     depths,
     spline_areas,
