@@ -1,7 +1,8 @@
 """Draw the figures of docs/vary.md: python -m docs.vary.make [FOLDER].
 
 A van's axle with the tolerances of scattering_van.toml at 60 km/h: 128 short marches, some minutes.
-The results are kept in FOLDER, where a run that was stopped goes on.
+Then its whine with those of whine_tolerances.toml: 200 axles, loaded and marched, some minutes. The
+results are kept in FOLDER, where a run that was stopped goes on.
 """
 
 from __future__ import annotations
@@ -10,16 +11,21 @@ import sys
 import tempfile
 from pathlib import Path
 
-from docs.page import IMAGES
+from docs.page import IMAGES, Page
 from gearlube.output.csv_text import csv_text
 from gearlube.variation.design import Design, Sampling
 from gearlube.variation.figures import histogram_figure, rank_figure
+from gearlube.variation.parts import scattered_parts
+from gearlube.variation.parts_report import check_figure, findings, parts_figure, pays_figure
 from gearlube.variation.point_study import point_study, scatter
 from gearlube.variation.run import run_variation
+from gearlube.variation.scatter import spreads_in
+from gearlube.variation.store import open_variation
 from gearlube.variation.summary import write_summary
 from gearlube_core.storage.atomic_file import write_text
 
 HERE = Path(__file__).resolve().parent
+LIMITS = {"tone_to_noise": 5.0}  # dB
 
 
 def main(folder: Path) -> None:
@@ -39,6 +45,29 @@ def main(folder: Path) -> None:
     write_text(csv_text(head, rows), HERE / "numbers.csv")
 
 
+def whine(folder: Path) -> None:
+    """Run the whine of 200 axles, predict 10,000, and draw them."""
+    study = point_study("whine", str(HERE / "scattering_van.toml"), quick=True)
+    spreads = spreads_in(HERE / "whine_tolerances.toml", study)
+    design = Design(spreads=spreads, sampling=Sampling("lhs", 200))
+    run_variation(study, design, out=folder)
+    draw_whine(folder, design)
+
+
+def draw_whine(folder: Path, design: Design) -> None:
+    """Predict and draw from the runs that `whine` keeps."""
+    results = open_variation(folder)
+    many = scattered_parts(results, design, parts=10_000, limits=LIMITS)
+    for name, draw in (("parts", parts_figure), ("pays", pays_figure), ("check", check_figure)):
+        draw(results, many).savefig(IMAGES / f"vary_whine_{name}.png", dpi=110)
+    said = "\n".join(f"- {one.headline}" for one in findings(results, many))
+    page = Page("vary")
+    page.paragraph("<!-- begin: written by docs.vary.make -->", said)
+    page.write()
+
+
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as nowhere:
-        main(Path(sys.argv[1] if len(sys.argv) > 1 else nowhere))
+        kept = Path(sys.argv[1] if len(sys.argv) > 1 else nowhere)
+        main(kept / "loss")
+        whine(kept / "whine")

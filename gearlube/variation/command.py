@@ -21,7 +21,8 @@ def vary(
     study: Annotated[
         str,
         typer.Argument(
-            help="map, sweep, cycle, bearing, helical, contact or resonance.", metavar="STUDY"
+            help="map, sweep, whine, cycle, bearing, helical, contact or resonance.",
+            metavar="STUDY",
         ),
     ],
     file: Annotated[
@@ -52,6 +53,20 @@ def vary(
         bool,
         typer.Option("--scatter", help="Sample the [tolerances] of the file as well."),
     ] = False,
+    tolerances: Annotated[
+        Path | None,
+        typer.Option(
+            help="Sample the [tolerances] of this file as well, of any parameter in --keys.",
+            metavar="FILE",
+        ),
+    ] = None,
+    parts: Annotated[
+        int | None,
+        typer.Option(
+            help="Predict so many parts by a model trained on the points, and check it by them.",
+            metavar="N",
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option(help="Random seed of the samples.")] = 1,
     limit: Annotated[
         list[str] | None,
@@ -76,7 +91,8 @@ def vary(
     quick: Annotated[
         bool,
         typer.Option(
-            "--quick", help="Coarse settings for a first look (sweep, helical, contact, resonance)."
+            "--quick",
+            help="Coarse settings for a first look (sweep, whine, helical, contact, resonance).",
         ),
     ] = False,
     out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_vary"),
@@ -96,10 +112,13 @@ def vary(
     from gearlube.variation.design import Design
     from gearlube.variation.figures import save_variation_figures
     from gearlube.variation.file_variants import GEAR_FILE
+    from gearlube.variation.parts import check_parts, scattered_parts
+    from gearlube.variation.parts_report import save_parts
     from gearlube.variation.point_study import OF_AXLE, point_study, prepared
     from gearlube.variation.point_study import scatter as scatter_of_study
     from gearlube.variation.report import variation_report
     from gearlube.variation.run import MOST_BLOCK, run_variation
+    from gearlube.variation.scatter import spreads_in
     from gearlube.variation.summary import write_summary
     from gearlube.variation.vary_option import (
         SCATTER_DESIGN,
@@ -127,12 +146,16 @@ def vary(
         if scheduler is not None:
             check_address(scheduler)
         spreads = given.spreads
-        if scatter:
+        if scatter or tolerances is not None:
             typed = {axis.key for axis in given.axes} | {one.key for one in spreads}
-            of_file = scatter_of_study(chosen)
-            spreads = (*spreads, *(one for one in of_file if one.key not in typed))
+            inside = scatter_of_study(chosen) if scatter else ()
+            own = () if tolerances is None else spreads_in(tolerances, chosen)
+            of_files = {one.key: one for one in (*inside, *own)}.values()
+            spreads = (*spreads, *(one for one in of_files if one.key not in typed))
             design = SCATTER_DESIGN if design is None else design
         plan = Design(axes=given.axes, spreads=spreads, sampling=sampling_from(design, seed))
+        if parts is not None:
+            check_parts(plan, parts)
         gears = [str(one) for axis in given.axes if axis.key == GEAR_FILE for one in axis.values]
         bring_gears_up_to_date(file if gears else None, gears, jobs=jobs)
         chosen = prepared(chosen, plan)
@@ -150,6 +173,10 @@ def vary(
             )
             results, summary = write_summary(out, limits)
             save_variation_figures(results, summary, out / "figures")
+            report = variation_report(results, summary)
+            if parts is not None:
+                many = scattered_parts(results, plan, parts=parts, limits=limits, seed=seed)
+                report = save_parts(results, many, report, out)
         logger.info("%d points computed.", done.computed)
         if done.lost:
             logger.warning(
@@ -158,7 +185,7 @@ def vary(
                 done.lost,
             )
         run.written(done.store.path.name, "summary.csv", "figures")
-        run.finish(variation_report(results, summary))
+        run.finish(report)
         failures = int(summary["failed"].sum())
         exit_if_failed(f"{failures} points failed; points.csv says why." if failures else "")
 

@@ -36,7 +36,7 @@ def save_variation_figures(results: xr.Dataset, summary: xr.Dataset, folder: Pat
     return save_figure_folder(made, folder)
 
 
-def _scale(results: xr.Dataset, name: str) -> tuple[float, str]:
+def scale_of(results: xr.Dataset, name: str) -> tuple[float, str]:
     """Return the factor and unit in which a quantity is drawn."""
     unit = str(results[name].attrs["units"])
     return (1e6, "µm") if unit == "m" else (1.0, _unit_words(unit))
@@ -48,8 +48,9 @@ def _unit_words(unit: str) -> str:
     return "-" if unit in ("", "1") else unit
 
 
-def _about(results: xr.Dataset, name: str, letters: int = _LETTERS) -> str:
-    unit = _scale(results, name)[1]
+def label_of(results: xr.Dataset, name: str, letters: int = _LETTERS) -> str:
+    """Return the meaning of a quantity and the unit in which it is drawn, in lines."""
+    unit = scale_of(results, name)[1]
     words = f"{results[name].attrs['long_name']}\u00a0[{unit}]"  # no line for a unit alone
     return fill(words, letters)
 
@@ -61,9 +62,11 @@ def _words(values: dict[str, Any]) -> str:
     )
 
 
-def _panels(results: xr.Dataset, what: str) -> tuple[Any, list[Any]]:
-    count = len(_shown(results))
-    figure = new_figure(4.4 * min(count, 2), 3.3 * -(-count // 2))
+def panels_of(
+    results: xr.Dataset, what: str, count: int, height: float = 3.3
+) -> tuple[Any, list[Any]]:
+    """Return a figure with a title and `count` axes, two in a row of so many inches."""
+    figure = new_figure(4.4 * min(count, 2), height * -(-count // 2))
     axes = figure.subplots(-(-count // 2), min(count, 2), squeeze=False).ravel()
     for empty in axes[count:]:
         empty.set_visible(False)
@@ -81,12 +84,12 @@ def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
 
     over = gridded(results)[_shown(results)].load()
     with house_style():
-        figure, panels = _panels(results, "How the results scatter")
+        figure, panels = panels_of(results, "How the results scatter", len(_shown(results)))
         some = list(cells(summary))[:_MOST_SERIES]
         for name, ax in zip(_shown(results), panels, strict=True):
             for i, (values, _) in enumerate(some):
                 column = over[name].sel(values).values
-                column = _scale(results, name)[0] * column[np.isfinite(column)]
+                column = scale_of(results, name)[0] * column[np.isfinite(column)]
                 if column.size and varies(column):
                     ax.hist(
                         column,
@@ -99,7 +102,7 @@ def histogram_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
                     for end in np.percentile(column, [2.5, 97.5]):
                         ax.axvline(end, color=SERIES[i], linestyle=":", linewidth=1.1)
                     ax.plot([], [], ":", color=SERIES[i], label=_DOTTED if i == 0 else None)
-            ax.set_xlabel(_about(results, name))
+            ax.set_xlabel(label_of(results, name))
             ax.set_ylabel("number of points")
             ax.xaxis.set_major_locator(MaxNLocator(4))
             ax.yaxis.set_major_locator(MaxNLocator(6, integer=True))
@@ -118,7 +121,7 @@ def rank_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
     strength = np.nan_to_num(np.abs(ranks.sel(quantity=_shown(results)).values)).max(axis=0)
     chosen = np.argsort(strength)[::-1][:_MOST_BARS][::-1]
     with house_style():
-        figure, panels = _panels(results, "Which input each result follows")
+        figure, panels = panels_of(results, "Which input each result follows", len(_shown(results)))
         for name, ax in zip(_shown(results), panels, strict=True):
             bars = ranks.sel(quantity=name).values[chosen]
             ax.barh(np.arange(chosen.size), bars, color=SERIES[0], hatch=HATCHES[0])
@@ -150,9 +153,9 @@ def line_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
     unit = {one["key"]: one["unit"] for one in inputs_of(results)}[along]
     first = summary.isel({along: 0})
     with house_style():
-        figure, panels = _panels(results, "Results over an input")
+        figure, panels = panels_of(results, "Results over an input", len(_shown(results)))
         for name, ax in zip(_shown(results), panels, strict=True):
-            chosen = _scale(results, name)[0] * summary["statistics"].sel(quantity=name)
+            chosen = scale_of(results, name)[0] * summary["statistics"].sel(quantity=name)
             for i, (values, _) in enumerate(list(cells(first))[:_MOST_SERIES]):
                 one = chosen.sel(values)
                 x, middle = summary[along].values, one.sel(statistic="p50").values
@@ -164,7 +167,7 @@ def line_figure(results: xr.Dataset, summary: xr.Dataset) -> Any:
                         x, low, high, color=SERIES[i], alpha=0.2, linewidth=0, label=label
                     )
             ax.set_xlabel(f"{along} [{_unit_words(unit)}]")
-            ax.set_ylabel(_about(results, name, _SIDE_LETTERS))
+            ax.set_ylabel(label_of(results, name, _SIDE_LETTERS))
         if panels[0].get_legend_handles_labels()[1]:
             panels[0].legend()
     return figure

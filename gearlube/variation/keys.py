@@ -55,8 +55,10 @@ def _short(key: Key) -> str:
     return key.name.removesuffix(ending) if key.origin != "fmu" else key.name
 
 
-def understood(typed: str, keys: Keys) -> Key:
+def understood(typed: str, keys: Keys, where: str = "--vary") -> Key:
     """Return the key that a typed name stands for; the unit at its end may be left out.
+
+    `where` it was typed is named in errors.
 
     Raises
     ------
@@ -79,4 +81,4 @@ def understood(typed: str, keys: Keys) -> Key:
         last = typed.rpartition(".")[2]
         near = [name for name in keys if last and last in name][:_NEAR]
     cure = f"Is it {' or '.join(near)}?" if near else "`gearlube vary STUDY --keys` lists all."
-    raise ParameterError(f"--vary must name a parameter of the study, got {typed!r}. {cure}")
+    raise ParameterError(f"{where} must name a parameter of the study, got {typed!r}. {cure}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ MISSING = -1  # not computed, or lost to the machine: the next run computes it
 SHIPPED = {
     "map": "mohammadpour_2015",
     "sweep": "mohammadpour_2015",
+    "whine": "mohammadpour_2015",
     "cycle": "mohammadpour_2015",
     "bearing": "wingertszahn_2023",
     "helical": "he_2007",
@@ -29,8 +30,8 @@ SHIPPED = {
     "resonance": "mohammadpour_2015",
 }
 STUDIES = tuple(SHIPPED)
-OF_AXLE = ("map", "sweep", "cycle")  # their file is an axle file
-_QUICK = ("sweep", "helical", "contact", "resonance")
+OF_AXLE = ("map", "sweep", "whine", "cycle")  # their file is an axle file
+_QUICK = ("sweep", "whine", "helical", "contact", "resonance")
 
 
 class Quantity(NamedTuple):
@@ -87,6 +88,10 @@ class PointStudy(Protocol):
         """Return the spreads of the tolerances in the file; raise ParameterError without any."""
         ...
 
+    def values(self) -> Mapping[str, Any]:
+        """Return the values about which parameters scatter, by name."""
+        ...
+
     def check(self, point: Point) -> None:
         """Raise ParameterError or TableError where a point is wrong; quick."""
         ...
@@ -134,7 +139,7 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
 
     Parameters
     ----------
-    name : {"map", "sweep", "cycle", "bearing", "helical", "contact", "resonance"}
+    name : {"map", "sweep", "whine", "cycle", "bearing", "helical", "contact", "resonance"}
     file : str, optional
         Axle, bearing or gear file, or a mesh table for resonance; or the name of a shipped one.
     quick : bool
@@ -176,6 +181,11 @@ def point_study(name: str, file: str | None = None, *, quick: bool = False) -> P
         from gearlube.variation.points.march import MarchPoint
 
         return MarchPoint(axle=axle, quick=quick)
+    if name == "whine":
+        from drivetrain.axle_file.read_axle import gear_file_of
+        from gearlube.variation.points.whine import WhinePoint
+
+        return WhinePoint(axle=axle, gears=gear_file_of(file), quick=quick).prepared({})
     if name == "cycle":
         from gearlube.variation.points.cycle import CyclePoint
 

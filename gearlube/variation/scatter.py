@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlube.variation.design import Spread
+from gearlube.variation.keys import understood
 from gearlube_core.errors import ParameterError
-from gearlube_core.input_file.tolerance import Tolerance
+from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.input_file.tolerance import Tolerance, Tolerances
+
+if TYPE_CHECKING:  # which imports this module's sibling
+    from gearlube.variation.point_study import PointStudy
 
 _DEVIATIONS = 3.0  # that a tolerance of a normal distribution is: process capability Cp = 1
 
@@ -47,6 +53,37 @@ def scatter_of(
             )
         spreads.append(spread_about(field, float(value), tolerance))
     return tuple(spreads)
+
+
+class ToleranceFile(InputFile):
+    """Tolerances of any parameters of a study, fields of its file or not."""
+
+    title: ClassVar[str] = "tolerance file"
+    package: ClassVar[str] = "gearlube.variation"
+
+    tolerances: Tolerances
+
+
+def spreads_in(path: str | Path, study: PointStudy) -> tuple[Spread, ...]:
+    """Return the spreads of a tolerance file about the values of a study.
+
+    Raises
+    ------
+    ParameterError
+        The file is wrong, or names a parameter without its unit or one that the study has not.
+    """
+    tolerances = ToleranceFile.from_toml(path).tolerances
+    for name in tolerances:
+        if (key := understood(name, study.keys, f"[tolerances] of {path}")).name != name:
+            raise ParameterError(
+                f"[tolerances] of {path} must name parameters with their unit, got {name}. Write "
+                f"{key.name} [{key.unit}]."
+            )
+        if key.kind != "number":
+            raise ParameterError(
+                f"[tolerances] of {path} must name numbers, but {name} is a {key.kind}. Remove it."
+            )
+    return scatter_of(study.subject, tolerances, study.values())
 
 
 def values_of(data: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

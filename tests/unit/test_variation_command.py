@@ -87,3 +87,21 @@ def test_scatter_samples_the_tolerances_of_the_file_that_are_not_varied_otherwis
         code, said = run(*words)
         assert code == 2
         assert reason in said
+
+
+def test_many_parts_of_a_tolerance_file_are_predicted_with_their_share_above_a_limit(run, tmp_path):
+    """Forty bearings: draws five figures, seconds."""
+    (tmp_path / "load.toml").write_text("[tolerances]\nload.axial_n = { plus_minus = 900.0 }\n")
+    words = "--design", "lhs:40", "--parts", "500", "--limit", "torque=1.7", "--jobs", "1"
+    code, said = run("vary", "bearing", "--tolerances", "load.toml", *words, "--out", "results")
+    assert code == 0, said
+    assert "of 500 parts have a torque above 1.70 N·m" in said
+    assert "load.axial_n 100 %" in said  # the one tolerance has all of the scatter
+    folder = tmp_path / "results"
+    assert (folder / "parts.nc").is_file()
+    drawn = {path.name for path in (folder / "figures").iterdir()}
+    assert drawn >= {"parts.png", "pays.png", "check.png", "histograms.png"}
+    assert "Which tolerance pays" in (folder / "report.html").read_text()
+    code, said = run("vary", "bearing", "--vary", "load.axial=1000,2000", "--parts", "500")
+    assert code != 0
+    assert "--parts needs at least 40 samples" in said

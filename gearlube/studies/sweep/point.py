@@ -181,15 +181,20 @@ def march(car_axle: CarAxle, speed_kmh: float, settings: SweepSettings) -> xr.Da
         The axle or its driver refused.
     """
     axle = car_axle.axle
+    recording = marched(car_axle, speed_kmh, settings)
+    preload = float(axle.bearings[0].preload_force())
+    return _summary(recording, speed_kmh, preload, axle.backlash)
+
+
+def marched(car_axle: CarAxle, speed_kmh: float, settings: SweepSettings) -> Recording:
+    """Return the outputs of an axle over time, where `march` returns numbers; alike otherwise."""
     settings = oil_at_rest(car_axle, speed_kmh, settings)
 
     @contextmanager
     def started(channels: Sequence[str], pinion_speed: float) -> Iterator[_PythonAxle]:
-        yield _PythonAxle(axle, channels, pinion_speed)
+        yield _PythonAxle(car_axle.axle, channels, pinion_speed)
 
-    recording = _recorded(started, car_axle.driveline, speed_kmh, settings)
-    preload = float(axle.bearings[0].preload_force())
-    return _summary(recording, speed_kmh, preload, axle.backlash)
+    return _recorded(started, car_axle.driveline, speed_kmh, settings)
 
 
 def _recorded(

@@ -38,6 +38,7 @@ OFFSET = operand("misalignment.pinion_offset_um", "um", "E: growth of the offset
 PINION = operand("misalignment.pinion_axial_um", "um", "P: pinion outwards", 0.0, -5e3, 5e3)
 GEAR = operand("misalignment.gear_axial_um", "um", "G: gear outwards", 0.0, -5e3, 5e3)
 ANGLE = operand("misalignment.shaft_angle_mrad", "mrad", "Growth of the angle", 0.0, -50.0, 50.0)
+MISALIGNMENTS = OFFSET, PINION, GEAR, ANGLE
 
 _LOADED = (
     *order_quantities("te", "m", "transmission error under load"),
@@ -68,9 +69,7 @@ class ContactPoint(FilePoint[HypoidGearFile]):
     name: ClassVar[str] = "contact"
     block: ClassVar[int] = 4
     shown: ClassVar[tuple[str, ...]] = ("te_mesh_1", "te_unloaded_pp", "pressure_max", "force_t")
-    operands: ClassVar[Keys] = {
-        key.name: key for key in (SIDE, TORQUE, POSITIONS, OFFSET, PINION, GEAR, ANGLE)
-    }
+    operands: ClassVar[Keys] = {key.name: key for key in (SIDE, TORQUE, POSITIONS, *MISALIGNMENTS)}
     quantities: ClassVar[tuple[Quantity, ...]] = _QUANTITIES
 
     def check(self, point: Point) -> None:
@@ -80,12 +79,12 @@ class ContactPoint(FilePoint[HypoidGearFile]):
         """
         check_option(SIDE.name, value(point, SIDE), SIDES)
         self.varied(point)
-        _misalignment(point)
+        misalignment(point)
 
     def compute(self, point: Point) -> Sequence[float]:
         """Find what touches without load, then load the pair over a mesh period."""
         file, side = self.varied(point), value(point, SIDE)
-        pair = FlankPair.from_file(file, side, _misalignment(point))
+        pair = FlankPair.from_file(file, side, misalignment(point))
         torque = value(point, TORQUE)
         if not torque:
             unloaded = unloaded_contact(pair) | {"error": mesh_error(pair)}
@@ -97,7 +96,7 @@ class ContactPoint(FilePoint[HypoidGearFile]):
                 misalignment=pair.misalignment,
             ),
         )
-        teeth = _teeth(file.model_dump_json(), settings.body)[side]
+        teeth = teeth_of(file.model_dump_json(), settings.body)[side]
         records = (
             position_record(pair, float(phase), teeth, settings.cycle)
             for phase in settings.cycle.phases
@@ -106,7 +105,8 @@ class ContactPoint(FilePoint[HypoidGearFile]):
         return (*_without_load(found), *_under_load(found))
 
 
-def _misalignment(point: Point) -> Misalignment:
+def misalignment(point: Point) -> Misalignment:
+    """Return where the members of a point stand."""
     return Misalignment(
         pinion_offset=1e-6 * value(point, OFFSET),
         pinion_axial=1e-6 * value(point, PINION),
@@ -141,7 +141,7 @@ def _under_load(found: dict[str, Array]) -> list[float]:
 
 
 @lru_cache(maxsize=2)
-def _teeth(file: str, body: ToothBodySettings) -> dict[str, PairStiffness]:
+def teeth_of(file: str, body: ToothBodySettings) -> dict[str, PairStiffness]:
     """Return the elastic teeth of a gear file; points that vary no field of it share them."""
     found = pair_stiffness(HypoidGearFile.model_validate_json(file), body, jobs=1, keep=False)
     return {str(side): one for side, one in found.items()}

@@ -67,10 +67,13 @@ class AxlePoint:
         A field that the file leaves out scatters about its default.
         """
         file = self.axle.file
-        if not file.tolerances:
-            return scatter_of(file.name, {}, {})
+        return scatter_of(file.name, file.tolerances, self.values() if file.tolerances else {})
+
+    def values(self) -> dict[str, Any]:
+        """Return the values of the axle file, defaults included, and the usual operands."""
+        usual = {key.name: key.usual for key in self.operands.values()}
         notes = self.axle.car_axle({}, notes=True).inputs
-        return scatter_of(file.name, file.tolerances, {note.field: note.value for note in notes})
+        return {**usual, **{note.field: note.value for note in notes}}
 
 
 def operand(
@@ -206,7 +209,12 @@ class FilePoint(Generic[File]):
                 f"The file has a tolerance of {unread[0]}, but the study {self.name} does not use "
                 "this field. Remove the tolerance; `--keys` lists what can be varied."
             )
-        return scatter_of(self.subject, tolerances, values_of(self.file.model_dump()))
+        return scatter_of(self.subject, tolerances, self.values())
+
+    def values(self) -> dict[str, Any]:
+        """Return the values of the file and the usual operands."""
+        usual = {key.name: key.usual for key in self.operands.values()}
+        return {**usual, **values_of(self.file.model_dump())}
 
     def oil(self, name: str) -> Lubricant:
         """Return an oil by its name or file."""

@@ -119,6 +119,10 @@ class ResonancePoint:
         """Refuse: a mesh table has no tolerances."""
         return scatter_of(f"the mesh table {self.table}", {}, {})
 
+    def values(self) -> dict[str, Any]:
+        """Return the usual operands."""
+        return {key.name: key.usual for key in self.keys.values()}
+
     def check(self, point: Point) -> None:
         """Raise ParameterError or TableError where table, torque or range is wrong."""
         self._settings(point)
