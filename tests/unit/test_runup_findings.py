@@ -76,6 +76,16 @@ def test_the_loudest_order_rises_towards_its_resonance_and_is_told_first(ramp) -
     assert {one.unit for one in numbers(ramp)} == {"N rms", "rpm", "µm rms", "", "%", "W"}
 
 
+def test_an_order_that_grows_at_the_end_is_told_although_another_is_louder(ramp) -> None:
+    louder = ramp.copy(deep=True)
+    middle = ramp.sizes["block"] // 2
+    louder["bearing_force_track"].loc[{"block": middle, "mesh_order": 2}] *= 1e3
+    first, *others = findings(louder)
+    assert first.headline.startswith("The loudest is mesh order 2: ")
+    headlines = " ".join(one.headline for one in others)
+    assert "critical speed of mesh order 1 lies above the ramp, 3 % away" in headlines
+
+
 def test_table_and_summary_have_every_crest_and_block(ramp) -> None:
     crests, critical = tables(ramp)
     assert [row[0] for row in crests.rows] == [one.mesh_order for one in peaks(ramp)]

@@ -220,8 +220,10 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
 
 def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     inside = sorted((one for one in critical if one.margin == 0.0), key=lambda one: -one.force)
-    loudest = peaks(dataset)[0].mesh_order
-    outside = [one for one in critical if one.margin != 0.0 and one.mesh_order == loudest]
+    loudest, *others = peaks(dataset)
+    # an order that is largest at an end of the ramp may still grow beyond it
+    asked = {loudest.mesh_order, *(one.mesh_order for one in others if one.at_end)}
+    outside = [one for one in critical if one.margin != 0.0 and one.mesh_order in asked]
     found = []
     if inside:
         told = "; ".join(
@@ -246,7 +248,7 @@ def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
         found.append(
             Finding(
                 WARNING if narrow else GOOD,
-                f"The next critical speed of mesh order {loudest} lies {where} the ramp, "
+                f"The next critical speed of mesh order {near.mesh_order} lies {where} the ramp, "
                 f"{100.0 * abs(near.margin):.0f} % away: '{near.mode}' at "
                 f"{_speed(dataset, near.speed_rpm)}.",
                 "This resonance already raises the level at the end of the ramp." if narrow else "",
