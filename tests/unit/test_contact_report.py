@@ -85,7 +85,7 @@ def test_a_pressure_above_that_of_edges_is_told_with_its_torque():
     assert findings(sound)[0].level == GOOD
     warning = findings(pressed)[0]
     assert warning.level == WARNING
-    assert "from 80 N·m on, with up to 4.00 GPa" in warning.headline
+    assert "from 80 N·m on." in warning.headline
 
 
 @pytest.mark.parametrize(("heel", "level"), [(0.7, GOOD), (1.0, WARNING)])
@@ -122,13 +122,13 @@ def test_key_numbers_and_findings_of_both_sides_are_known():
         # 1e-4 rad at an arm of 20 mm are 2 um, 3e-4 rad at 30 mm 9 um
         ("drive", (0.9, "0.900"), (2.0, "2.00"), (1.0, "1.00"), (np.nan, "–"), (300.0, "300"),
          (1.8, "1.80")),
-        ("coast", (1.8, "1.80"), (9.0, "9.00"), (4.2, "4.20"), (80.0, "80.0"), (700.0, "700"),
+        ("coast", (1.8, "1.80"), (9.0, "9.00"), (0.9, "0.900"), (80.0, "80.0"), (700.0, "700"),
          (1.7, "1.70")),
     ):  # fmt: skip
         for words, unit, (value, text) in (
             ("largest first order of the loaded error", "µm", order),
             ("unloaded error, peak to peak", "µm", unloaded),
-            ("highest pressure", "GPa", pressure),
+            ("highest pressure away from sharp edges", "GPa", pressure),
             ("least torque with edge contact", "N·m", edge),
             ("mean secant stiffness at the highest torque", "N/µm", stiffness),
             ("path of contact", "mesh periods", path),
@@ -143,7 +143,7 @@ def test_key_numbers_and_findings_of_both_sides_are_known():
          "80 N·m, 0.900 µm, 10 N·m, 0.300 µm, 2.00 µm"),
         (GOOD, "the drive pattern stays on the face", pattern),
         (WARNING, "Sharp edges press into the coast flanks",
-         "2.5 GPa, 80 N·m, 4.20 GPa, 80 N·m, 0.90 GPa"),
+         "2.5 GPa, 80 N·m, 80 N·m, 0.90 GPa"),
         (NOTE, "first mesh order … (coast) is largest at … smallest at … Without load",
          "80 N·m, 1.80 µm, 10 N·m, 0.600 µm, 9.00 µm"),
         (GOOD, "the coast pattern stays on the face", pattern),

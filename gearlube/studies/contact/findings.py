@@ -128,9 +128,9 @@ def _edges(part: xr.Dataset, side: str) -> Finding:
     return Finding(
         WARNING,
         f"Sharp edges press into the {side} flanks with more than {1e-9 * EDGE_PRESSURE:g} GPa "
-        f"from {first:g} N·m on, with up to {quantity_text(highest, 'GPa')}.",
-        "This pressure has no meaning as a number, because it rises with finer cells: it only "
-        f"shows the place. Where a pair carries most load, {top:g} N·m give "
+        f"from {first:g} N·m on.",
+        "The pressure of an edge is no number to use, because it rises with finer cells. Where a "
+        f"pair carries most load, {top:g} N·m give "
         f"{quantity_text(middle, 'GPa', 2)}. Relief of tips and ends in the gear file removes edge "
         "contact; the command names the edges.",
     )
@@ -141,6 +141,11 @@ def _middle(part: xr.Dataset) -> float:
     state = part.isel(torque=-1)
     most = int(np.argmax(np.nan_to_num(state["share"].values)))
     return float(state["pressure_max"].values.ravel()[most])
+
+
+def _pressure(part: xr.Dataset) -> float:
+    """Return the highest pressure [Pa], where edges press that of the pair that carries most."""
+    return float(part["pressure_max"].max()) if np.isnan(edge_torque(part)) else _middle(part)
 
 
 def first_order(part: xr.Dataset) -> np.ndarray:
@@ -213,7 +218,9 @@ def numbers(contact: xr.Dataset) -> list[Number]:
                 1e6 * float(part["R_p"].mean() * np.ptp(part["error"].values)),
                 "µm",
             ),
-            Number(f"highest pressure, {side}", 1e-9 * float(part["pressure_max"].max()), "GPa"),
+            Number(
+                f"highest pressure away from sharp edges, {side}", 1e-9 * _pressure(part), "GPa"
+            ),
             Number(f"least torque with edge contact, {side}", edge_torque(part), "N·m"),
             Number(
                 f"mean secant stiffness at the highest torque, {side}",

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.range_words import RANGE_WORDS
+from gearlube.plotting.range_words import RANGE_WORDS, largest_block
 from gearlube.plotting.words import largest_losses
 from gearlube.report.churning import regime_findings
 from gearlube.report.films import (
@@ -338,13 +338,30 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             WARNING,
-            f"{100.0 * float((exceeded > 0).mean()):.0f} % of the points left the range of a "
-            "formula or table.",
-            f"What left it: {'; '.join(parts)} of the points. What is computed there is "
-            "extrapolated, and its error is not in the error bars. The column range_exceeded of "
-            "map.csv says where.",
+            f"{100.0 * float((exceeded > 0).mean()):.0f} % of the points are extrapolated. "
+            f"{_usable(dataset, exceeded == 0)}",
+            f"Beyond a formula or table: {'; '.join(parts)} of the points. The error of these "
+            "points is not in the error bars. The column range_exceeded of map.csv says which.",
         )
     ]
+
+
+def _usable(dataset: xr.Dataset, inside: Array) -> str:
+    """Return the largest block of the map without an extrapolated point, as a sentence."""
+    axes = ("temperature", "speed", "torque")
+    order = [dataset["range_exceeded"].dims.index(axis) for axis in axes]
+    block = largest_block(np.transpose(inside, order))
+    if block is None:
+        return "No part of the map is without them."
+    (cold, warm), (slow, fast), (low, high) = (
+        dataset[axis].values[[part.start, part.stop - 1]]
+        for axis, part in zip(axes, block, strict=True)
+    )
+    share = 100.0 * math.prod(part.stop - part.start for part in block) / inside.size
+    return (
+        f"The largest part without is {low:g} to {high:g} N·m, {slow:.0f} to {fast:.0f} rpm, "
+        f"{cold:.0f} to {warm:.0f} °C: {share:.0f} % of the points."
+    )
 
 
 def _least(values: xr.DataArray | Array) -> float:
