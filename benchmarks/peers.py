@@ -266,9 +266,8 @@ def rough(page: Page, repeats: int, missing: dict[str, str]) -> Work:
     }
     work = Work(sides, missing)
     base = {"nodes": PATCH_NODES}
-    own = folder / "own.npy"
-    work.own.ask(**base, tolerance=1e-9, out=str(own))
-    right = np.load(own)
+    work.own.ask(**base, tolerance=1e-9, out=str(folder / "right.npy"))
+    right = np.load(folder / "right.npy")
     apart = "?"
     for peer in (one for one in work.sides if one.name == "tamaas"):
         peer.ask(**base, tolerance=1e-12, out=str(folder / "tight.npy"))
@@ -306,16 +305,17 @@ def film(page: Page, repeats: int, missing: dict[str, str], repository: str) -> 
     fine = [work.own.ask(nodes=nodes) for nodes in FINE_FILM]
     # both errors fall with the square of the step
     limit = {k: (4.0 * fine[1][k] - fine[0][k]) / 3.0 for k in ("central", "minimum")}
-    words = "a side, extrapolated, are {} nm in the centre and {} nm at the least"
-    page.fill(words, *(f"{1e9 * one:.1f}" for one in limit.values()))
-    tasks = {side.name: {"nodes": FILM_NODES[0]} for side in work.sides}
-    coarse = work.first(tasks)
+    shown = [f"{1e9 * one:.1f}" for one in limit.values()]
+    page.fill("points a side, extrapolated, are {} nm in the centre and {} nm at", *shown)
+    coarse = work.first(tasks := {side.name: {"nodes": FILM_NODES[0]} for side in work.sides})
     finer = work.once({one.name: {"nodes": FILM_NODES[1]} for one in work.sides})
     value = "?"
     if "central" in finer.get("EHL-FBNS", {}):
         two = [found["EHL-FBNS"]["central"] for found in (coarse, finer)]
         value = f"{1e9 * (4.0 * two[1] - two[0]) / 3.0:.1f}"
     page.fill("EHL-FBNS has {} nm in the centre, extrapolated", value)
+    first_order = work.own.ask(nodes=FILM_NODES[0], wedge="upwind-1")["central"]
+    page.fill("gearlube has {} nm with such a one, on 65 x 65", f"{1e9 * first_order:.1f}")
     work.time(tasks, repeats)
     rows = []
     for side in work.sides:

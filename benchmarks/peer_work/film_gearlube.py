@@ -12,7 +12,7 @@ from gearlube_core.oil.film_laws import DowsonHigginson
 from gearlube_core.oil.film_oil_data import film_oil
 
 
-def run(nodes: int) -> dict:
+def run(nodes: int, wedge: str = "upwind-2") -> dict:
     pressure, size = FILM["density_pressure"], FILM["half_width"]
     density = DowsonHigginson(FILM["density_factor"] / pressure, 1.0 / pressure)
     began = time.perf_counter()
@@ -27,7 +27,8 @@ def run(nodes: int) -> dict:
         domain=ContactDomain(inlet=size, outlet=size, side=size),
         oil_beyond=False,
     )
-    film = solve_point_contact(problem, PointSolverSettings(cavitation="mass_conserving"))
+    settings = PointSolverSettings(cavitation="mass_conserving", wedge=wedge)
+    film = solve_point_contact(problem, settings)
     return {
         "seconds": time.perf_counter() - began,
         "central": film.central_film,

@@ -37,7 +37,7 @@ def rotor_beam(
     ------
     ParameterError
         Sizes do not fit, a matrix is not symmetric (G: antisymmetric), planes differ or are
-        coupled, or the rotor is held.
+        coupled, a mass is zero, or the rotor is held.
 
     Examples
     --------
@@ -77,6 +77,12 @@ def rotor_beam(
         scale = np.sqrt(np.abs(np.diag(matrix)))
         _check_alike(what, matrix - whole, np.outer(scale, scale))
         parts[what] = [own[0], own[2], own[3]]
+    lightest = min(float(np.linalg.eigvalsh(part)[0]) for part in parts["mass"])
+    if lightest <= 0.0:
+        raise ParameterError(
+            "mass of the rotor must be above zero in every direction at every place, got "
+            f"{lightest:.3g}. Give lumped masses a moment of inertia, or leave their places out."
+        )
     bent = np.ones(2 * z.size)
     bent[::2] = z - z.mean()
     shifted = np.tile([1.0, 0.0], z.size)
@@ -85,9 +91,9 @@ def rotor_beam(
         held = max(abs(part @ one).max() / ((abs(part) @ abs(one)).max() or 1.0) for one in motions)
         if held > _FREE:
             raise ParameterError(
-                f"stiffness of the rotor must be below {_FREE:g} of its largest number against "
-                f"rigid motions, got {held:.3g}. Leave out bearings and seals: they are elements "
-                "of the train."
+                f"stiffness of the rotor must not resist rigid motions by more than {_FREE:g} of "
+                f"its numbers, got {held:.3g}. Leave out bearings and seals: they are elements of "
+                "the train."
             )
     tilting = np.zeros_like(parts["mass"][0])
     if gyroscopic is not None:

@@ -114,6 +114,7 @@ def test_train_file_names_the_matrices_of_another_program(tmp_path: Path):
     [
         ({"places": np.array([0.0, 1.0, 1.0])}, "places of the rotor must be two or more"),
         ({"mass": np.eye(4)}, "six for each place, got the shape"),
+        ({"mass": np.diag(np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 1.0], 5))}, "moment of inertia"),
         ({"bearing": 1e6}, "Leave out bearings"),
         ({"one plane": 1e9}, "alike in both planes"),
         ({"gyroscopic": np.eye(30)}, "gyroscopic of the rotor must be"),
