@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -267,8 +268,8 @@ def in_c_host(job: Job, folder: Path, machine: Machine = THIS_ONE) -> list[float
 
 
 def unpacked(job: Job, folder: Path) -> Path:
-    """Unpack the FMU and return its folder."""
-    return Path(fmpy.extract(str(job.fmu), str(folder / job.fmu.stem)))
+    """Unpack the FMU into a folder of its own, as a library that is loaded must stay."""
+    return Path(fmpy.extract(str(job.fmu), tempfile.mkdtemp(dir=folder)))
 
 
 def in_fmil(job: Job, library: Path, folder: Path) -> list[float]:

