@@ -146,7 +146,8 @@ def shared_library(
     check_linker()
     files = sorted(file for file in sources if file.endswith(".c"))
     library = f"{name}{platform.suffix}"
-    options = ["-s", "-shared", "-Wall", "-Wextra", "-I.", *files, "kernels.o", "-lm"]
+    warnings = ["-Wall", "-Wextra", "-Wno-unused-parameter"]  # FMI gives more than an FMU needs
+    options = ["-s", "-shared", *warnings, "-I.", *files, "kernels.o", "-lm"]
     if "linux" in platform.name:
         options.append("-ldl")
     return _compiled(platform, {**sources, "kernels.o": kernels}, options, library, name)

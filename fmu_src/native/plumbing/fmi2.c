@@ -1,4 +1,4 @@
-/* FMI 2.0: what both interfaces share, and co-simulation. */
+/* FMI 2.0: co-simulation and model exchange. */
 #include "fmi2Functions.h"
 
 #include "instance.h"
@@ -6,12 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-static const fmi2Status statuses[] = {fmi2OK, fmi2Warning, fmi2Discard, fmi2Error};
-
-static fmi2Status answer(gl_status status)
-{
-    return statuses[status];
-}
+#define FMI(name) fmi2##name
+#include "both_versions.h"
 
 /* The logger takes a text like that of printf, with #r1# for a variable. The message is sent as that
    text and not as an argument of "%s", because hosts exist that read no arguments. */
@@ -46,18 +42,12 @@ const char *fmi2GetVersion(void)
     return fmi2Version;
 }
 
-fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
-{
-    return answer(GL_CALL(c, gl_choose_logs(c, on, n, names)));
-}
-
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *calls, fmi2Boolean visible,
                               fmi2Boolean logging)
 {
     char why[GL_LONGEST_MESSAGE] = "";
     gl_model *model = NULL;
-    (void)visible;
     if (!calls || !calls->logger) {
         gl_say_no_instance(name, "The host must give a logger.");
         return NULL;
@@ -77,37 +67,16 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
                    logging, type == fmi2ModelExchange);
 }
 
-void fmi2FreeInstance(fmi2Component c)
-{
-    gl_free(c);
-}
-
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance,
                                fmi2Real start, fmi2Boolean stop_defined, fmi2Real stop)
 {
-    (void)tolerance_defined;
-    (void)tolerance; /* the step follows from the frequencies of the model */
+    /* the tolerance is not used: the step follows from the frequencies of the model */
     return answer(GL_CALL(c, gl_set_times(c, start, stop_defined ? stop : INFINITY)));
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
     return answer(GL_CALL(c, gl_enter_initialisation(c)));
-}
-
-fmi2Status fmi2ExitInitializationMode(fmi2Component c)
-{
-    return answer(GL_CALL(c, gl_exit_initialisation(c)));
-}
-
-fmi2Status fmi2Terminate(fmi2Component c)
-{
-    return answer(GL_CALL(c, gl_terminate(c)));
-}
-
-fmi2Status fmi2Reset(fmi2Component c)
-{
-    return answer(GL_CALL(c, gl_reset(c)));
 }
 
 /* Points at the values that may be read, if any. */
@@ -125,37 +94,34 @@ static fmi2Status read_values(gl_instance *instance, gl_kind kind, const unsigne
     return answer(status);
 }
 
-fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
-{
-    const double *from;
-    fmi2Status status = read_values(c, GL_REAL, vr, n, value, &from);
-    for (size_t i = 0; from && i < n; i++) {
-        value[i] = from[vr[i]];
+/* Reads and sets the values of one FMI type, `kind` in our table. */
+#define ACCESS(name, kind, read, written)                                                         \
+    fmi2Status fmi2Get##name(fmi2Component c, const fmi2ValueReference refs[], size_t n,          \
+                             fmi2##name values[])                                                 \
+    {                                                                                             \
+        const double *from;                                                                       \
+        fmi2Status status = read_values(c, kind, refs, n, values, &from);                         \
+        for (size_t i = 0; from && i < n; i++) {                                                  \
+            double value = from[refs[i]];                                                         \
+            values[i] = read;                                                                     \
+        }                                                                                         \
+        return status;                                                                            \
+    }                                                                                             \
+    fmi2Status fmi2Set##name(fmi2Component c, const fmi2ValueReference refs[], size_t n,          \
+                             const fmi2##name values[])                                           \
+    {                                                                                             \
+        gl_status status = GL_CALL(c, gl_check_set(c, kind, n, refs, values));                    \
+        gl_status worst = status;                                                                 \
+        for (size_t i = 0; status == GL_OK && i < n; i++) {                                       \
+            gl_status one = GL_CALL(c, gl_set(c, refs[i], written));                              \
+            worst = one > worst ? one : worst;                                                    \
+        }                                                                                         \
+        return answer(worst);                                                                     \
     }
-    return status;
-}
 
-fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                          fmi2Integer value[])
-{
-    const double *from;
-    fmi2Status status = read_values(c, GL_INTEGER, vr, n, value, &from);
-    for (size_t i = 0; from && i < n; i++) {
-        value[i] = (fmi2Integer)gl_whole(from[vr[i]], INT32_MIN, INT32_MAX);
-    }
-    return status;
-}
-
-fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                          fmi2Boolean value[])
-{
-    const double *from;
-    fmi2Status status = read_values(c, GL_BOOLEAN, vr, n, value, &from);
-    for (size_t i = 0; from && i < n; i++) {
-        value[i] = from[vr[i]] != 0.0 ? fmi2True : fmi2False;
-    }
-    return status;
-}
+ACCESS(Real, GL_REAL, value, values[i])
+ACCESS(Integer, GL_INTEGER, (fmi2Integer)gl_whole(value, INT32_MIN, INT32_MAX), (double)values[i])
+ACCESS(Boolean, GL_BOOLEAN, value != 0.0, values[i] ? 1.0 : 0.0)
 
 static fmi2Status no_strings(gl_instance *instance, size_t n)
 {
@@ -166,64 +132,13 @@ static fmi2Status no_strings(gl_instance *instance, size_t n)
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                          fmi2String value[])
 {
-    (void)vr;
-    (void)value;
     return no_strings(c, n);
 }
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                          const fmi2String value[])
 {
-    (void)vr;
-    (void)value;
     return no_strings(c, n);
-}
-
-static fmi2Status worse(fmi2Status status, gl_status other)
-{
-    return answer(other) > status ? answer(other) : status;
-}
-
-fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                       const fmi2Real value[])
-{
-    if (!gl_is_instance(c)) {
-        return fmi2Error;
-    }
-    fmi2Status status = answer(GL_CALL(c, gl_check_set(c, GL_REAL, n, vr, value)));
-    if (status != fmi2OK) {
-        return status;
-    }
-    for (size_t i = 0; i < n; i++) {
-        status = worse(status, GL_CALL(c, gl_set(c, vr[i], value[i])));
-    }
-    return status;
-}
-
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                          const fmi2Integer value[])
-{
-    if (GL_CALL(c, gl_check_set(c, GL_INTEGER, n, vr, value)) != GL_OK) {
-        return fmi2Error;
-    }
-    fmi2Status status = fmi2OK;
-    for (size_t i = 0; i < n; i++) {
-        status = worse(status, GL_CALL(c, gl_set(c, vr[i], (double)value[i])));
-    }
-    return status;
-}
-
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                          const fmi2Boolean value[])
-{
-    if (GL_CALL(c, gl_check_set(c, GL_BOOLEAN, n, vr, value)) != GL_OK) {
-        return fmi2Error;
-    }
-    fmi2Status status = fmi2OK;
-    for (size_t i = 0; i < n; i++) {
-        status = worse(status, GL_CALL(c, gl_set(c, vr[i], value[i] ? 1.0 : 0.0)));
-    }
-    return status;
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
@@ -259,7 +174,6 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_way_back)
 {
-    (void)no_way_back;
     return answer(GL_CALL(c, gl_step(c, time, step)));
 }
 
@@ -276,20 +190,12 @@ fmi2Status fmi2CancelStep(fmi2Component c)
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                        const fmi2Integer order[], const fmi2Real value[])
 {
-    (void)vr;
-    (void)n;
-    (void)order;
-    (void)value;
     return unsupported(c, "derivatives of inputs");
 }
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                         const fmi2Integer order[], fmi2Real value[])
 {
-    (void)vr;
-    (void)n;
-    (void)order;
-    (void)value;
     return unsupported(c, "derivatives of outputs");
 }
 
@@ -305,8 +211,6 @@ static fmi2Status no_information(gl_instance *instance, const char *what)
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
 {
-    (void)kind;
-    (void)value;
     return no_information(c, "step that runs in the background");
 }
 
@@ -322,8 +226,6 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
 
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
 {
-    (void)kind;
-    (void)value;
     return no_information(c, "status that is an Integer");
 }
 
@@ -340,7 +242,40 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
 {
-    (void)kind;
-    (void)value;
     return no_information(c, "status that is a String");
+}
+
+fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
+{
+    int changed = 0;
+    if (!gl_is_instance(c)) {
+        return fmi2Error;
+    }
+    if (!info) {
+        return no_pointer(c);
+    }
+    gl_status status = GL_CALL(c, gl_update_discrete(c, &changed));
+    if (status == GL_OK) {
+        info->newDiscreteStatesNeeded = fmi2False;
+        info->terminateSimulation = fmi2False;
+        info->nominalsOfContinuousStatesChanged = fmi2False;
+        info->valuesOfContinuousStatesChanged = changed ? fmi2True : fmi2False;
+        info->nextEventTimeDefined = fmi2False;
+        info->nextEventTime = 0.0;
+    }
+    return answer(status);
+}
+
+fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real x[], size_t n)
+{
+    return answer(GL_CALL(c, gl_get_rates(c, x, n)));
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[],
+                                        size_t n_unknown, const fmi2ValueReference known[],
+                                        size_t n_known, const fmi2Real d_known[],
+                                        fmi2Real d_unknown[])
+{
+    return answer(GL_CALL(
+        c, gl_differentiate(c, unknown, n_unknown, known, n_known, d_known, d_unknown)));
 }

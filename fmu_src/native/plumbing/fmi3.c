@@ -1,4 +1,4 @@
-/* FMI 3.0: what all interfaces share, and co-simulation. Values of arrays lie one after the other, element by element. */
+/* FMI 3.0: co-simulation, and what model exchange shares with it or with FMI 2. Values of arrays lie one after the other, element by element. */
 #include "fmi3Functions.h"
 
 #include "instance.h"
@@ -7,12 +7,9 @@
 #include <string.h>
 
 static const char *const type_names[] = {"Float64", "Int32", "Boolean"}; /* by gl_kind */
-static const fmi3Status statuses[] = {fmi3OK, fmi3Warning, fmi3Discard, fmi3Error};
 
-static fmi3Status answer(gl_status status)
-{
-    return statuses[status];
-}
+#define FMI(name) fmi3##name
+#include "both_versions.h"
 
 static void tell(gl_instance *instance, gl_status status, const char *category, const char *text)
 {
@@ -25,11 +22,6 @@ static void tell(gl_instance *instance, gl_status status, const char *category, 
 const char *fmi3GetVersion(void)
 {
     return fmi3Version;
-}
-
-fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String names[])
-{
-    return answer(GL_CALL(c, gl_choose_logs(c, on, n, names)));
 }
 
 static fmi3Instance no_instance(fmi3String name, fmi3InstanceEnvironment host,
@@ -60,10 +52,6 @@ fmi3Instance fmi3InstantiateCoSimulation(
     const fmi3ValueReference intermediate[], size_t n_intermediate, fmi3InstanceEnvironment host,
     fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update)
 {
-    (void)visible;
-    (void)early_return;
-    (void)intermediate;
-    (void)update;
     if (events || n_intermediate) {
         return no_instance(name, host, log,
                            "This FMU has neither event mode nor intermediate variables.");
@@ -75,7 +63,6 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi
                                           fmi3Boolean visible, fmi3Boolean logging,
                                           fmi3InstanceEnvironment host, fmi3LogMessageCallback log)
 {
-    (void)visible;
     if (!GL_EXCHANGE) {
         return no_instance(name, host, log, "This FMU is for co-simulation only.");
     }
@@ -88,44 +75,16 @@ fmi3Instance fmi3InstantiateScheduledExecution(
     fmi3ClockUpdateCallback update, fmi3LockPreemptionCallback lock,
     fmi3UnlockPreemptionCallback unlock)
 {
-    (void)token;
-    (void)resources;
-    (void)visible;
-    (void)logging;
-    (void)update;
-    (void)lock;
-    (void)unlock;
     return no_instance(name, host, log, "This FMU has no scheduled execution.");
-}
-
-void fmi3FreeInstance(fmi3Instance c)
-{
-    gl_free(c);
 }
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_defined,
                                        fmi3Float64 tolerance, fmi3Float64 start,
                                        fmi3Boolean stop_defined, fmi3Float64 stop)
 {
-    (void)tolerance_defined;
-    (void)tolerance; /* the step follows from the frequencies of the model */
+    /* the tolerance is not used: the step follows from the frequencies of the model */
     gl_status status = GL_CALL(c, gl_set_times(c, start, stop_defined ? stop : INFINITY));
     return answer(status == GL_OK ? GL_CALL(c, gl_enter_initialisation(c)) : status);
-}
-
-fmi3Status fmi3ExitInitializationMode(fmi3Instance c)
-{
-    return answer(GL_CALL(c, gl_exit_initialisation(c)));
-}
-
-fmi3Status fmi3Terminate(fmi3Instance c)
-{
-    return answer(GL_CALL(c, gl_terminate(c)));
-}
-
-fmi3Status fmi3Reset(fmi3Instance c)
-{
-    return answer(GL_CALL(c, gl_reset(c)));
 }
 
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Boolean no_way_back,
@@ -133,12 +92,11 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Bo
                       fmi3Float64 *last_time)
 {
     gl_instance *instance = c;
-    (void)no_way_back;
     if (!gl_is_instance(instance)) {
         return fmi3Error;
     }
     if (!event_needed || !terminate || !early_return || !last_time) {
-        return answer(GL_CALL(instance, gl_refuse(instance, "A pointer of the call is null.")));
+        return no_pointer(instance);
     }
     gl_status status = GL_CALL(instance, gl_step(instance, time, step));
     *event_needed = *terminate = *early_return = false;
@@ -289,13 +247,11 @@ static fmi3Status unsupported(gl_instance *instance, size_t asked, const char *w
     fmi3Status fmi3Get##name(fmi3Instance c, const fmi3ValueReference refs[], size_t n,           \
                              type values[], size_t n_values)                                      \
     {                                                                                             \
-        (void)refs, (void)values, (void)n_values;                                                 \
         return unsupported(c, n, "variable of type " #name);                                      \
     }                                                                                             \
     fmi3Status fmi3Set##name(fmi3Instance c, const fmi3ValueReference refs[], size_t n,           \
                              const type values[], size_t n_values)                                \
     {                                                                                             \
-        (void)refs, (void)values, (void)n_values;                                                 \
         return unsupported(c, n, "variable of type " #name);                                      \
     }
 
@@ -311,14 +267,12 @@ NO_ACCESS(String, fmi3String)
 fmi3Status fmi3GetBinary(fmi3Instance c, const fmi3ValueReference refs[], size_t n, size_t sizes[],
                          fmi3Binary values[], size_t n_values)
 {
-    (void)refs, (void)sizes, (void)values, (void)n_values;
     return unsupported(c, n, "variable of type Binary");
 }
 
 fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference refs[], size_t n,
                          const size_t sizes[], const fmi3Binary values[], size_t n_values)
 {
-    (void)refs, (void)sizes, (void)values, (void)n_values;
     return unsupported(c, n, "variable of type Binary");
 }
 

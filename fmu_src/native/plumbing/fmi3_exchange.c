@@ -1,4 +1,4 @@
-/* FMI 3.0 for model exchange. */
+/* FMI 3.0 for model exchange, what FMI 2 has not alike. */
 #include "fmi3Functions.h"
 
 #include "instance.h"
@@ -12,11 +12,6 @@ static fmi3Status answer(gl_status status)
 static fmi3Status no_pointer(gl_instance *instance)
 {
     return answer(GL_CALL(instance, gl_refuse(instance, "A pointer of the call is null.")));
-}
-
-fmi3Status fmi3EnterEventMode(fmi3Instance c)
-{
-    return answer(GL_CALL(c, gl_enter_events(c)));
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needed, fmi3Boolean *terminate,
@@ -39,58 +34,9 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *needed, fmi3Boo
     return answer(status);
 }
 
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c)
-{
-    return answer(GL_CALL(c, gl_enter_continuous_time(c)));
-}
-
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_way_back,
-                                       fmi3Boolean *enter_event_mode, fmi3Boolean *terminate)
-{
-    int due = 0;
-    (void)no_way_back;
-    if (!gl_is_instance(c)) {
-        return fmi3Error;
-    }
-    if (!enter_event_mode || !terminate) {
-        return no_pointer(c);
-    }
-    gl_status status = GL_CALL(c, gl_complete_step(c, &due));
-    if (status == GL_OK) {
-        *enter_event_mode = due != 0;
-        *terminate = false;
-    }
-    return answer(status);
-}
-
-fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time)
-{
-    return answer(GL_CALL(c, gl_set_time(c, time)));
-}
-
-fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n)
-{
-    return answer(GL_CALL(c, gl_set_states(c, x, n)));
-}
-
-fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
-{
-    return answer(GL_CALL(c, gl_get_states(c, x, n)));
-}
-
-fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n)
-{
-    return answer(GL_CALL(c, gl_get_nominals(c, x, n)));
-}
-
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 x[], size_t n)
 {
     return answer(GL_CALL(c, gl_get_rates(c, x, n)));
-}
-
-fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 z[], size_t n)
-{
-    return answer(GL_CALL(c, gl_get_indicators(c, z, n)));
 }
 
 /* How many event indicators there are, or how many continuous states. */

@@ -44,7 +44,7 @@ void gl_take_outputs(gl_instance *instance, int computed);
 /* Computes what is needed of the present state, as bits. */
 gl_status gl_refresh(gl_instance *instance, int needed);
 
-/* Ditto, of the start before the end of initialisation. */
+/* The same, of the start before the end of initialisation. */
 gl_status gl_compute(gl_instance *instance, int needed);
 
 /* Refuses the call unless the instance is in this phase, or in one of both. */
