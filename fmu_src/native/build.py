@@ -155,7 +155,7 @@ def libraries(
     found = {one.name: kept_library(shipped, one.name) for one in platforms}
     missing = [one for one in platforms if not found[one.name]]
     if missing:
-        with one_builds(_key(model), report) as folder:
+        with one_builds(_key(model), [one.name for one in missing], report) as folder:
             found |= {one.name: kept_library(folder, one.name) for one in missing}
             missing = [one for one in missing if not found[one.name]]
             for platform, library in _built(model, missing, report):

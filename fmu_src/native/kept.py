@@ -11,7 +11,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -51,11 +51,12 @@ def keep_library(folder: Path, platform: str, library: bytes) -> None:
 
 
 @contextmanager
-def one_builds(key: str, report: Callable[[str], None]) -> Iterator[Path]:
+def one_builds(key: str, platforms: Sequence[str], report: Callable[[str], None]) -> Iterator[Path]:
     """Give the folder of a key; other processes that want the same wait until this one is done.
 
-    Where nothing can be written each process builds for itself. Folders that nobody has locked
-    for _UNUSED are removed.
+    They wait no longer than until the libraries for all their platforms are kept. Where nothing can
+    be written each process builds for itself. Folders that nobody has locked for _UNUSED are
+    removed.
     """
     folder = cache_folder("libraries") / key
     with ExitStack() as held:
@@ -67,6 +68,8 @@ def one_builds(key: str, report: Callable[[str], None]) -> Iterator[Path]:
                 try:
                     held.enter_context(locked_folder(folder))
                 except ParameterError:
+                    if all(kept_file(folder, one).is_file() for one in platforms):
+                        break
                     if not waits:
                         report(f"waiting for another process that builds the same ({folder})")
                     waits = True

@@ -25,6 +25,7 @@ from fmu_src.native.parameter_map import KernelClasses
 from fmu_src.native.platforms import PLATFORMS, Platform
 from gearlube_core.bearings.tapered_roller_kernels import TaperedRollerParameters
 from gearlube_core.friction.flank_laws import MixedFlankFriction
+from gearlube_core.storage.folders import locked_folder
 from tests.helpers.small_native_model import small_native_model
 
 ROOT = Path(__file__).parents[2]
@@ -133,6 +134,16 @@ def test_one_builds_and_the_others_wait(builds: Builds, monkeypatch: pytest.Monk
     assert builds.asked == NAMES
     assert seen[0] == seen[1]
     assert sum("waiting for another process" in text for text in said) == 1
+
+
+def test_what_is_kept_is_taken_while_another_builds_for_more_platforms(
+    builds: Builds, tmp_path: Path
+) -> None:
+    one = libraries(of_kind("one"), TWO[:1])
+    (path,) = (tmp_path / "cache" / "libraries").rglob("*.kept")
+    with locked_folder(path.parent):
+        assert libraries(of_kind("one"), TWO[:1]) == one
+    assert builds.asked == NAMES[:1]
 
 
 def test_libraries_that_nobody_takes_are_removed_after_three_months(
