@@ -14,8 +14,8 @@ from gearlube_core.errors import ParameterError
 Value = float | int | bool | str
 
 
-class Model(Protocol):
-    """Interface of a running model that a slave steps."""
+class Stepped(Protocol):
+    """A running model that is stepped."""
 
     @property
     def outputs(self) -> Array:
@@ -24,6 +24,10 @@ class Model(Protocol):
     @property
     def step(self) -> Callable[..., None]:
         """(h, *inputs): advance by h [s]; on failure raise a GearLubeError and keep the state."""
+
+
+class Model(Stepped, Protocol):
+    """Interface of a running model that a slave steps."""
 
     def exceeded(self) -> Mapping[str, str]:
         """Return what is outside its range now: a sentence for each, by the output's name."""

@@ -299,6 +299,16 @@ def tilt_speeds(member: str, word: str) -> tuple[Variable, ...]:
     )  # fmt: skip
 
 
+# oils that every FMU of gears has; as their numbers never change, new ones stand at the end
+OILS = ("mohammadpour_2015", "karagiannis_2012", "jamali_2015", "fva_3", "fva_3a",
+        "arana_2019_m100", "arana_2019_n100", "arana_2019_pao100")  # fmt: skip
+
+
+def oil_name() -> Variable:
+    """Return the choice of the oil."""
+    return option("oil.name", "Lubricant", *OILS, start=OILS[0], argument="oil")
+
+
 def speed_hold(start: float) -> tuple[Variable, ...]:
     """Return what holds the speed of the pinion; `start` is the reference at the start [rad/s]."""
     hold = option("speed.hold", "What holds the speed of the pinion: nothing, a governor, whose "

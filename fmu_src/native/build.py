@@ -275,10 +275,9 @@ def build_native(model: NativeModel, out_dir: Path, options: NativeOptions) -> l
     """
     platforms = [one for one in PLATFORMS if one.name in options.platforms]
     built = libraries(model, platforms, options.report)
-    run = None
-    if options.reference and model.entry is not None:
+    if options.reference:
         options.report(f"{model.definition.name}: reference results")
-        run = reference_run(model.definition)
+        run = reference_run(model)
     contents = {"2": ("", fmi2_content), "3": ("_FMI3", fmi3_content)}
     paths = []
     for number in options.fmi:

@@ -8,11 +8,13 @@ start. So there is no second copy of the equations.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import KroghInterpolator
 from scipy.optimize import brentq
 
 from drivetrain.driveline.equations import (
@@ -24,10 +26,11 @@ from drivetrain.driveline.equations import (
     driveline_equations,
     driveline_stepper,
 )
+from drivetrain.driveline.model import Driveline
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.driveline.steady_state import periodic_deviation, steady_state
 from drivetrain.road_load import mohammadpour_2015_road_load
-from fmu_src.definition import Definition
+from fmu_src.definition import Definition, Value
 from fmu_src.native.model import NativeModel
 from fmu_src.variable import Variable, count, input_, output, parameter
 from gearlube_core.arrays import Array
@@ -134,6 +137,51 @@ def _data(car: DrivelineParameters) -> Array:
     return np.concatenate(parts)
 
 
+class _Running:
+    """The car of the FMU in Python, from its table of starts."""
+
+    def __init__(
+        self,
+        car: DrivelineParameters,
+        data: Array,
+        parameters: Mapping[str, Value],
+        inputs: Sequence[float],
+    ) -> None:
+        scale, speed, gear = map(float, parameters.values())
+        self._car = Driveline(car, speed, gear=int(gear) or None)
+        gears = data[2:].reshape(len(car.gearbox.ratios), -1)
+        (low, _, high), rows = np.split(gears[self._car.gear - 1], [3])
+        place = (speed - low) / (high - low) * (_SPEEDS - 1)
+        first = int(np.clip(place - 1.0, 0, _SPEEDS - 4))
+        near = rows.reshape(_SPEEDS, _ROW)[first : first + 4]
+        row = KroghInterpolator(np.arange(4.0), near)(place - first)
+        steady, orders, (engine, *torques, pinion_speed) = np.split(
+            row, [len(STATES), 2 * len(STATES)]
+        )
+        memory = np.zeros(_N)
+        memory[: len(STATES)] = steady + scale * orders
+        self._car.set_state(np.array([*memory, inputs[-1], engine, scale]))
+        self._torques, self._engine, self._pinion_speed = tuple(torques), engine, pinion_speed
+        self._turned = np.array([inputs[0], inputs[2]])
+
+    @property
+    def outputs(self) -> Array:
+        """Present outputs."""
+        car, engine = self._car, self._car.parameters.engine
+        low, high = rpm_to_rads(engine.idle_speed_rpm), rpm_to_rads(engine.highest_speed_rpm)
+        left = not low <= car.engine_speed <= high
+        of_start = self._pinion_speed, car.gear
+        return np.array([*self._torques, car.vehicle_speed, left, car.engine_speed, *of_start])
+
+    def step(self, h: float, *inputs: float) -> None:
+        """Advance by h [s], angles not connected."""
+        _, pinion, _, wheel, requested = inputs
+        self._car.request(requested, self._engine)
+        angles = self._turned.tolist()
+        self._torques = self._car.step(h, angles[0], pinion, angles[1], wheel)
+        self._turned += h * np.array([pinion, wheel])
+
+
 def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
     """Return the native model of a car around its axle.
 
@@ -174,6 +222,7 @@ def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
                   "The gear is that of the start and does not change."),
         ),
         refusals=_REFUSALS,
+        in_python=partial(_Running, car, data),
     )  # fmt: skip
 
 

@@ -67,7 +67,8 @@ class CasePlaces(NamedTuple):
     """Where the parts of the constants begin, and what else all cases have in common."""
 
     film_models: int  # as many numbers of cases lie before
-    cases: int
+    oils: int
+    oil: int  # among the parameters: as many oils as it has options
     work: int  # without the memory of the mesh
 
 
@@ -196,9 +197,10 @@ def check_cases(data: Any, lengths: Array, literals: Array, places: CasePlaces) 
     `lengths` are those of data and work, and `literals` how many options each parameter has.
     """
     for i in range(_LITERALS.size):
-        if literals[i] != _LITERALS[i]:
+        if literals[i] != _LITERALS[i] and i != places.oil:
             return 1
-    if not places.cases <= lengths[0] <= 1e9:
+    first = places.oils + OIL_FLOATS * literals[places.oil]
+    if not (literals[places.oil] >= 1.0 and first <= lengths[0] <= 1e9):
         return 1
     values = array_at(data, int(lengths[0]))
     fits = True
@@ -209,7 +211,7 @@ def check_cases(data: Any, lengths: Array, literals: Array, places: CasePlaces) 
         if not fits or place == 0.0:
             continue
         last = lengths[0] - HEAD_FLOATS - GIVEN_FLOATS
-        fits = is_whole(place, float(places.cases), last)
+        fits = is_whole(place, first, last)
         if fits:
             length, own = _case_length(pointer_at(data, int(place)))
             fits = length > 0 and place + length <= lengths[0]

@@ -43,9 +43,11 @@ from gearlube_core.dynamics.helical_model.outputs import (
     write_pair,
 )
 from gearlube_core.dynamics.helical_model.pair import N_NUMBERS
+from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import DENSITY_WITH_MESH_WORDS
 from gearlube_core.dynamics.helical_pair.march.mesh_data import data_size
 from gearlube_core.dynamics.helical_pair.supports import COUPLING_CURE
+from gearlube_core.dynamics.helical_uncertain import uncertain_of
 from gearlube_core.dynamics.train.assemble import Assembly
 from gearlube_core.dynamics.train.choice import generated_kernel
 from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
@@ -53,8 +55,10 @@ from gearlube_core.dynamics.train.march import ADVANCE, EVENT, EXCHANGE, START, 
 from gearlube_core.dynamics.train.rest_search import NO_REST
 from gearlube_core.dynamics.train.stepped_model import REVERSED, REVERSED_WORDS, put_speed
 from gearlube_core.film_model.net import N_ARRAY
+from gearlube_core.friction.flank_laws import AranaShare
 from gearlube_core.kernels.array_part import part
 from gearlube_core.kernels.flat_tuples import tuple_from_array
+from gearlube_core.oil.lubricant import Lubricant
 
 _START, _STEP, _, _RESUME, _MOTION, _DERIVATIVES, _EVENT = map(int, tuple(Operation)[:7])
 _CHECK = int(Operation.CHECK)
@@ -223,6 +227,11 @@ def native_model(definition: Definition) -> NativeModel:
         ranges_at=layout.RANGES_AT,
         ranges=cases.ranges,
         refusals=refusals,
+        uncertain=tuple(
+            one
+            for one in uncertain_of(oil or Lubricant.named(USUAL_OIL), AranaShare())
+            if one.name != "rolling"
+        ),  # rolling of the flanks is not in the model
         motion=MOTION_OUTPUTS,
         exchange=Exchange(
             states=STATE_NAMES,

@@ -8,7 +8,6 @@ from fmu_src.helical_variables import CUSTOM, HELICAL_PAIR
 from fmu_src.native.helical_cases import (
     GIVEN_FLOATS,
     HEAD_FLOATS,
-    OIL_FLOATS,
     STIFFNESS_MODELS,
     CaseHead,
     CasePlaces,
@@ -137,8 +136,7 @@ DENSITY_WITH_LINE_MESH = 7
 COUPLING_TOO_LARGE = 8
 MISSING_CASE = 10  # and its number
 
-_CASES_AT = OILS_AT + OIL_FLOATS * len(_PARAMETERS["oil"].literals)
-PLACES = CasePlaces(FILM_MODELS_AT, _CASES_AT, MEMORY_AT)
+PLACES = CasePlaces(FILM_MODELS_AT, OILS_AT, OIL, MEMORY_AT)
 
 
 @kernel

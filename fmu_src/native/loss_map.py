@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+from scipy.interpolate import RegularGridInterpolator
 
-from fmu_src.definition import MAP, Definition
+from fmu_src.definition import MAP, Definition, Value
 from fmu_src.native.model import NativeModel
 from fmu_src.variable import Variable, input_, output, parameter
 from gearlube_core.arrays import Array
@@ -22,6 +24,28 @@ _AXES = {
     "torque": ("pinion.torque", "N.m", "", "Torque on the pinion, below 0 in coast", -1e5, 1e5),
     "temperature": ("oil.temperature", "K", "degC", "Temperature of the oil", 200.0, 500.0),
 }
+
+
+class _Map:
+    """The map in Python."""
+
+    def __init__(
+        self,
+        axes: Mapping[str, Array],
+        maps: Mapping[str, Array],
+        parameters: Mapping[str, Value],
+        inputs: Sequence[float],
+    ) -> None:
+        self._axes = [axes[name] for name in _AXES]
+        self._at = RegularGridInterpolator(self._axes, np.stack([*maps.values()], axis=-1))
+        self.step(0.0, *inputs)
+
+    def step(self, h: float, *inputs: float) -> None:
+        """Take over the inputs."""
+        held = np.clip(inputs, *np.transpose([one[[0, -1]] for one in self._axes]))
+        values = self._at(held)[0]
+        left = sum(1 << i for i, one in enumerate(held != inputs) if one)
+        self.outputs = np.array([*values, values[0] * inputs[0], left])
 
 
 def loss_map_model(
@@ -104,6 +128,7 @@ def loss_map_model(
         ranges=(),
         refusals={2: "the points of an axis must rise. Correct map.speed, map.torque or "
                   "map.temperature"},
+        in_python=partial(_Map, axes, maps),
     )  # fmt: skip
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 
 from numba import types
 
-from fmu_src.definition import Definition
+from fmu_src.definition import Definition, Stepped, Value
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
 from gearlube_core.dynamics.ranges import Range
@@ -100,6 +100,8 @@ class NativeModel:
         no size, and CHECK gets all of `gl_sizes` behind both lengths.
     uncertain : tuple of Uncertain
         Data that its losses are known to a factor by.
+    in_python : callable, optional
+        Starts the model in Python if `Definition.start_model` does not: for reference results.
     state_size : int
         Everything that the future depends on: states, inputs of the last step, step control.
     control_at : int
@@ -145,3 +147,4 @@ class NativeModel:
     kind: str = ""
     any_sizes: bool = False
     uncertain: tuple[Uncertain, ...] = ()
+    in_python: Callable[[Mapping[str, Value], Sequence[float]], Stepped] | None = None

@@ -32,8 +32,8 @@ TOLERANCE = 1e-6  # of each output's largest value, between this run and one in 
 BALANCE = 1e-5  # of the work put in, that may be missing between work, heat and stored energy
 
 _STEP, _STEPS = 1e-3, 50  # s
-_CHANGED_AT = 25  # steps, when the torques change
-_TORQUES = {"pinion.torque": 1.2, "wheel.torque": 1.2}  # over their start values, from then on
+_CHANGED_AT = 25  # steps, when some inputs change
+_CHANGES = {".torque": 1.2, ".speed_request": 1.02}  # of inputs, over their start values then
 _EXACT = 17  # digits of the inputs: less would turn a pair that is nearly balanced
 _SSV = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
 _SRMD = "http://ssp-standard.org/SSPTraceability1/SimulationResourceMetaData"
@@ -63,8 +63,8 @@ _ROLES = (
     ("requirements.csv", "requirement", "Limits of use, and what the experiment has to meet"),
     ("report.csv", "report", "What the experiment met when this FMU was built"),
     ("uncertainty.csv", "experiment/uncertainty-analysis", "Uncertain data of the losses: a true "
-     "value lies within value/factor to value*factor with 95 %, its logarithm is normal. Data "
-     "without a parameter are in loss.low and loss.high"),
+     "value lies within value/factor to value*factor with 95 %, its logarithm is normal. Losses "
+     "that are named are scaled by it. HypoidAxle has all in loss.low and loss.high"),
     (".srmd", "meta-data", "Origin, validity and checksums"),
     ("documentation/index.html", "document", "Equations in words, ranges and all variables"),
     ("fmi-ls-ref.txt", "document", "How to use the files of this manifest"),
@@ -81,28 +81,28 @@ class Run(NamedTuple):
     outputs: Array  # there
 
 
-def reference_run(definition: Definition) -> Run:
-    """Return a run of the Python model with all parameters at their start values."""
+def reference_run(model: NativeModel) -> Run:
+    """Return a run of the model in Python with all parameters at their start values."""
+    definition = model.definition
     inputs = [v for v in definition.variables if v.causality == "input"]
     start = [float(v.start or 0.0) for v in inputs]
-    later = [value * _TORQUES.get(v.name, 1.0) for v, value in zip(inputs, start, strict=True)]
+    factors = [_CHANGES.get(f".{v.name.rpartition('.')[2]}", 1.0) for v in inputs]
+    later = [value * factor for value, factor in zip(start, factors, strict=True)]
     parameters = {
         v.name: v.decoded(v.start or 0.0) for v in definition.variables if v.is_model_parameter
     }
-    model = definition.start_model(parameters, start)
+    running = (model.in_python or definition.start_model)(parameters, start)
     given, found = [], []
     for k in range(_STEPS + 1):
         now = start if k < _CHANGED_AT else later
         given.append(now)
-        found.append(np.array(model.outputs))  # a train computes all of them each time
+        found.append(np.array(running.outputs))  # a train computes all of them each time
         if k < _STEPS:
-            model.step(_STEP, *now)
+            running.step(_STEP, *now)
     return Run(np.arange(_STEPS + 1) * np.float64(_STEP), np.array(given), np.array(found))
 
 
-def described(
-    model: NativeModel, archive: Mapping[str, bytes], run: Run | None
-) -> dict[str, bytes]:
+def described(model: NativeModel, archive: Mapping[str, bytes], run: Run) -> dict[str, bytes]:
     """Return the files that describe an FMU, by name in its archive.
 
     Parameters
@@ -110,19 +110,17 @@ def described(
     model : NativeModel
     archive : mapping of str to bytes
         All other files of the FMU.
-    run : Run, optional
-        Without one there are no reference results and no report.
+    run : Run
+        From `reference_run`.
     """
     requirements = _requirements(model)
-    files = _parameter_sets(model.definition)
+    files = _parameter_sets(model.definition) | _experiment(model.definition, run)
     head: tuple[str, ...] = ("id", "variable", "low", "high", "unit", "requirement")
     files["requirements.csv"] = _csv(head, requirements)
+    head = ("id", "lowest", "highest", "met")
+    files["report.csv"] = _csv(head, _report(model.definition, requirements, run))
     if model.uncertain:
         files["uncertainty.csv"] = _uncertainty(model)
-    if run is not None:
-        files |= _experiment(model.definition, run)
-        head = ("id", "lowest", "highest", "met")
-        files["report.csv"] = _csv(head, _report(model.definition, requirements, run))
     content = {f"{FOLDER}/{name}": data for name, data in files.items()}
     content["documentation/fmi-ls-ref.txt"] = _GUIDE.read_bytes()
     content[MANIFEST] = _manifest([*content, META_DATA, *archive])
@@ -225,9 +223,8 @@ def _requirements(model: NativeModel) -> list[tuple[str, ...]]:
         words = f"{one.what[0].upper()}{one.what[1:]}. Beyond: {one.beyond}"
         limits = _limits(one.low, one.high)
         rows.append((f"validity.{one.output}", one.output, *limits, one.unit, words))
-    if model.entry is not None:
-        words = "Difference from a result here in the experiment, over its largest value"
-        rows.append(("reference", "", "0", f"{TOLERANCE:g}", "1", words))
+    words = "Difference from a result here in the experiment, over its largest value"
+    rows.append(("reference", "", "0", f"{TOLERANCE:g}", "1", words))
     if _STORED in model.definition.output_names:
         words = "Work put in less heat and stored energy in the whole experiment, over the work"
         rows.append(("energy", "", "0", f"{BALANCE:g}", "1", words))

@@ -210,8 +210,7 @@ def test_fmus_error_bars_and_film_models_know_the_law():
     assert found["literals"] == [["custom"], ["custom"]]
     assert found["starts"] == found["by number"] == [1, 1]
     assert (
-        "of the file alone: mohammadpour_2015, karagiannis_2012 do not have its law own_power"
-        in found["description"]
+        "arana_2019_n100, arana_2019_pao100 do not have its law own_power" in found["description"]
     )
     assert found["code"] == [True, True]  # the GUID changes with the file of the law
     eta0, alpha = found["as given"]

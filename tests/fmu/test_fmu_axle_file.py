@@ -141,13 +141,13 @@ def test_the_parameters_start_at_the_values_of_the_file(axle_file: Path) -> None
     }
     assert {name: found[name] for name in expected} == expected
     # an oil of its own is the literal after those that ship
-    assert starts(EXAMPLE)["oil.name"] == 3
+    assert starts(EXAMPLE)["oil.name"] == 9
     oil = definition_with_axle(EXAMPLE).variables[DEFINITION.references["oil.name"]]
-    assert oil.literals[2:] == (CUSTOM_OIL,)
+    assert oil.literals[8:] == (CUSTOM_OIL,)
     names = [v.name for v in definition_with_axle(EXAMPLE).variables]
     assert names == [v.name for v in DEFINITION.variables]
     by_number = definition_with_axle(EXAMPLE).variables[DEFINITION.references["oil.name.number"]]
-    assert by_number.range == (0.0, 3.0)
+    assert by_number.range == (0.0, 9.0)
 
 
 def test_the_load_of_another_ratio_starts_in_balance_with_the_pinion(tmp_path: Path) -> None:

@@ -17,10 +17,11 @@ from fmu_src.native.platforms import platform_of_this_machine
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.dynamics.hypoid_axle.mohammadpour_2015 import mohammadpour_2015_axle
 from gearlube_core.input_file.input_file import toml_data
-from tests.helpers.fmu_cases import HYPOID_AXLE
+from tests.helpers.fmu_cases import CASES, HYPOID_AXLE
 from tests.helpers.native_fmus import NativeFmus, native_fmus
 from tests.helpers.small_trains import ROTORS
 
+PAIR = CASES[1]
 PATH = Path(__file__).parents[2] / "examples" / "speed_held_fmu.py"
 SPEED, LOAD, OIL = 100.0, 160.0, 333.15
 INPUTS = [55.0, LOAD, OIL, SPEED]
@@ -78,6 +79,39 @@ def test_the_native_fmu_holds_the_speed_as_python_does_and_so_does_a_solver(
     speed = torque / 30.0 if mode == "governor" else 1e-9 * SPEED
     limit = np.array([speed, torque, 4e-3 * size[2, 0], 1e-3 * size[3, 0]])
     assert np.all(np.abs(solved - two).max(axis=1) < limit)
+
+
+@pytest.mark.parametrize("mode", HOLD)
+def test_the_native_pair_is_held_by_its_own_steps_and_by_a_solver(mode: str) -> None:
+    speed, fmu = PAIR.start("pinion.speed_start"), native_fmus(PAIR).fmi2
+    works = [f"energy.{one}" for one in ("pinion_work", "wheel_work", "friction", "mesh_damping",
+             "bearing_damping", "stored")]  # fmt: skip
+    torque, load = 220.0, 280.0
+    start = {"speed.hold.number": HOLD[mode], "pinion.torque": torque, "wheel.torque": load}
+    runs = []
+    for kind in ("CoSimulation", "ModelExchange"):
+        found = simulate_fmu(
+            str(fmu), fmi_type=kind, stop_time=0.02, output_interval=1e-3, start_values=start,
+            output=[*OUTPUTS, "pinion.angle", *works], relative_tolerance=1e-7,
+        )  # fmt: skip
+        of_point = np.append(np.diff(found["time"]) > 1e-12, True)  # the last after events
+        at = [np.flatnonzero(of_point & (np.abs(found["time"] - 1e-3 * k) < 1e-9))[-1]
+              for k in range(21)]  # fmt: skip
+        runs.append(found[at])
+    stepped, solved = (np.array([one[name] for name in OUTPUTS]) for one in runs)
+    # steps change the mesh load by 3e-4 of the value [docs/fmu.md], friction along with it
+    apart = 2.0 * 3e-4 * torque
+    limit = [apart / 30.0 if mode == "governor" else 1e-9 * speed, apart, 1e-8, 1e-3 * torque]
+    assert np.all(np.abs(stepped - solved).max(axis=1) < limit)
+    for one in runs:
+        change = {name: one[name][-1] - one[name][0] for name in (*works, "pinion.angle")}
+        put_in, *taken = (change[name] for name in works)
+        assert sum(taken) == pytest.approx(put_in, rel=2e-6)  # the page of the FMU
+        # the holder bears what the load asks for by the teeth, 25 to 31, and the friction
+        angle = change["pinion.angle"]
+        held = load * 25 / 31 - torque + change["energy.friction"] / angle
+        # stored energy swings by 0.06 J
+        assert put_in / angle - torque == pytest.approx(held, abs=0.06 / angle)
 
 
 def test_a_speed_held_against_the_start_is_refused(fmus: NativeFmus) -> None:

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 
 import fmpy
+import numpy as np
 import pytest
 
 from docs.fmu_hosts.hosts import Job, in_c_host, in_fmpy
@@ -25,6 +26,7 @@ from gearlube_core.errors import ParameterError
 from tests.helpers.native_fmus import unpacked_library
 from tests.helpers.native_library import OK, NativeInstance, NativeLibrary
 from tests.helpers.native_walk import walk
+from tests.helpers.reference_run import check_reference
 
 OUTPUTS = ("pinion.torque", "wheel.torque", "vehicle.speed", "engine.speed", "start.pinion_speed",
            "start.gear")  # fmt: skip
@@ -129,8 +131,6 @@ def test_it_computes_what_the_package_computes(
 
 
 def _motion(car: Driveline, steps: int, h: float):  # type: ignore[no-untyped-def]
-    import numpy as np
-
     steady = car.steady
     times = np.arange(steps + 1) * h
     columns = {
@@ -148,6 +148,15 @@ def _motion(car: Driveline, steps: int, h: float):  # type: ignore[no-untyped-de
 
 def test_checkers_find_no_problem(fmus: list[Path]) -> None:
     assert [problems(fmu) for fmu in fmus] == [[], []]
+
+
+def test_its_reference_results_come_out_again(fmus: list[Path], tmp_path: Path) -> None:
+    """80 km/h lie between the speeds of the table of starts."""
+    for fmu in fmus:
+        expected = check_reference(fmu, tmp_path / fmu.stem)
+        # the controller has begun to answer the request of 2 % more, and the torque orders swing
+        assert expected["vehicle.speed"][-1] > expected["vehicle.speed"][25]
+        assert np.ptp(expected["pinion.torque"]) > 1.0
 
 
 @pytest.mark.parametrize("h", [None, 1e-5, 1e-2, 0.1])

@@ -276,6 +276,23 @@ def test_every_status_has_words(shipped: LoadedModel, tmp_path: Path) -> None:
     assert set(carried.refusals) == told | {MISSING_CASE + i for i in (3, 5, 7)}
 
 
+def accepts(run: NativeRun, **literals: int) -> bool:
+    """Whether the library takes the constants, as it asks when the FMU is loaded."""
+    counts = {v.argument: len(v.literals) for v in run.model.definition.variables
+              if v.is_model_parameter}  # fmt: skip
+    lengths = np.array([run.model.data.size, run.model.work_size], dtype=float)
+    options = np.array([*(counts | literals).values()], dtype=float)
+    return replace(run, parameters=lengths, inputs=options)(Operation.CHECK) == OK
+
+
+def test_more_oils_than_the_constants_hold_are_refused(shipped: LoadedModel) -> None:
+    native = instance(shipped, values_of(), INPUTS)
+    assert accepts(native)
+    assert not accepts(native, oil=9)  # a case would begin among the oils
+    assert not accepts(native, oil=0)
+    assert not accepts(native, friction=3)
+
+
 def test_film_model_and_oil_of_a_gear_file_are_those_of_python(
     shipped: LoadedModel, tmp_path: Path
 ) -> None:
@@ -287,6 +304,7 @@ def test_film_model_and_oil_of_a_gear_file_are_those_of_python(
     for gear, name in ((values[0], "altered"), (1.0, "helical_line")):  # custom, he_2007
         values[0] = gear
         native = instance(shipped, values, INPUTS, own)
+        assert accepts(native)
         assert native(Operation.START) == OK
         given = {v.name: v.decoded(x) for v, x in zip(parameters, values, strict=True)}
         pair = own.definition.start_model(given, INPUTS)

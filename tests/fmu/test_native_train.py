@@ -23,6 +23,7 @@ from fmu_src.native.platforms import platform_of_this_machine
 from fmu_src.native.train import train_model
 from fmu_src.train import definition_with_train
 from gearlube_core.errors import ParameterError
+from tests.helpers.reference_run import check_reference
 from tests.helpers.small_trains import (
     BRAKE,
     DAMPING,
@@ -50,6 +51,13 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 def test_the_fmu_has_the_name_of_the_train_and_passes_the_checker(fmus: list[Path]) -> None:
     assert [path.name for path in fmus] == ["TwoRotorsOnAShaft.fmu", "TwoRotorsOnAShaft_FMI3.fmu"]
     assert [problems(path) for path in fmus] == [[], []]
+
+
+def test_its_reference_results_come_out_again(tmp_path: Path) -> None:
+    """The torque of the port, which starts at 10 N.m here, rises by a fifth."""
+    fmu = built(ROTORS.replace("drive = 0.0", "drive = 10.0"), tmp_path)[0]
+    expected = check_reference(fmu, tmp_path / "unpacked")
+    assert np.ptp(np.diff(expected["engine.speed"])) > 0.0
 
 
 def test_its_inputs_are_the_ports_and_the_oil(fmus: list[Path]) -> None:

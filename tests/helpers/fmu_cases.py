@@ -156,7 +156,7 @@ HYPOID_AXLE = Case(
         ("mesh.backlash", -1e-4, "mesh.backlash must be within 0 to 0.002 m"),
         ("pinion.speed_start", float("inf"), "speed_start must be within -5000 to 5000 rad/s"),
         ("mesh.modal_loss_factor", 2.0, "mesh.modal_loss_factor must be within 0 to 1, got 2.0"),
-        ("oil.name", 3, "must be one of 1 (mohammadpour_2015), 2 (karagiannis_2012), got 3"),
+        ("oil.name", 9, "1 (mohammadpour_2015), 2 (karagiannis_2012), 3 (jamali_2015), 4 (fva_3)"),
         ("oil.name", 0, "got 0"),
         ("model.radii", -1, "1 (consistent), 2 (paper), 3 (mean), got -1"),
         ("solver.steps_per_mesh_period", 1, "must be within 16 to 4096, got 1"),

@@ -17,6 +17,7 @@ from fmu_src.native.model_description_3 import STRUCT
 from fmu_src.native.platforms import platform_of_this_machine
 from gearlube.output.exports.export import _write_map_fmu as write_map_fmu
 from gearlube_core.errors import ParameterError
+from tests.helpers.reference_run import check_reference
 from tests.helpers.schemas import FMI_3, complaints
 
 GRID = {"temperature": [40.0, 80.0, 100.0], "speed": [500.0, 1000.0, 3000.0, 4000.0],
@@ -54,6 +55,11 @@ def at(fmu: Path, rpm: float, torque: float, degc: float, **more: object) -> dic
 
 def test_the_fmu_is_sound(fmu: Path) -> None:
     assert fmpy_problems(fmu) == []
+
+
+def test_its_reference_results_come_out_again(fmu: Path, tmp_path: Path) -> None:
+    expected = check_reference(fmu, tmp_path)
+    assert expected["loss_torque"][0] != expected["loss_torque"][-1]
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -166,10 +166,3 @@ def test_the_report_counts_the_energy_that_is_missing(
     run = Run(time, inputs, np.hstack([outputs, more]))
     rows = {one["id"]: one for one in table(described(model, ARCHIVE, run)[f"{FOLDER}/report.csv"])}
     assert rows["energy"]["met"] == met
-
-
-def test_without_a_run_there_is_neither_result_nor_report() -> None:
-    names = {posixpath.basename(name) for name in described(MODEL, ARCHIVE, None)}
-    assert names == {
-        "fmi-ls-manifest.xml", "fmi-ls-ref.txt", "gearlube.srmd", "default.ssv", "requirements.csv",
-    }  # fmt: skip

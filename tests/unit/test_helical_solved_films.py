@@ -8,12 +8,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from gearlube.studies.helical import pair_losses
 from gearlube.studies.helical.film_friction import film_dataset
 from gearlube.studies.helical.findings import findings
 from gearlube.studies.helical.pair_losses import losses_csv, losses_dataset
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.summary import _film, _losses
+from gearlube_core.dynamics import helical_uncertain
 from gearlube_core.dynamics.helical_pair.linear.periodic_response import periodic_response
 from gearlube_core.dynamics.helical_pair.march.gear_file_march import helical_march_parameters
 from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
@@ -129,7 +129,7 @@ def test_a_draw_that_leaves_the_film_model_does_not_mix_the_models(monkeypatch):
         *(Uncertain(name, name, 1.0, "test") for name in names),
         Uncertain("alpha", "alpha", 20.0, "test"),
     )
-    monkeypatch.setattr(pair_losses, "UNCERTAIN", wide)
+    monkeypatch.setattr(helical_uncertain, "UNCERTAIN", wide)
     found = losses_dataset(one, one.constant_mesh()).squeeze()
     plain = replace(one, film_model="formula")
     formula = losses_dataset(plain, plain.constant_mesh()).squeeze()

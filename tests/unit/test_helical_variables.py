@@ -282,7 +282,7 @@ def test_variables_of_the_losses_are_known(monkeypatch):
 
     monkeypatch.setattr(pair_losses, "line_points", lambda *_: None)
     monkeypatch.setattr(pair_losses, "table_line_load", lambda *_: None)
-    monkeypatch.setattr(pair_losses, "uncertain_of", lambda oil: ())
+    monkeypatch.setattr(pair_losses, "uncertain_of", lambda *_: ())
     monkeypatch.setattr(pair_losses, "replace", lambda film, oil_temperature: named(
         oil_temperature=oil_temperature, formulas=film))  # fmt: skip
     monkeypatch.setattr(pair_losses, "_losses", losses)

@@ -17,10 +17,10 @@ from typer.testing import CliRunner
 import gearlube as gl
 from drivetrain.steady_temperature import Cooling, steady_temperatures
 from gearlube.command import COMMANDS, command_line
-from gearlube.studies.helical import pair_losses
 from gearlube.studies.helical.film_friction import film_dataset
 from gearlube.studies.helical.pair_losses import losses_csv, losses_dataset
 from gearlube.studies.helical.settings import HelicalSettings
+from gearlube_core.dynamics import helical_uncertain
 from gearlube_core.dynamics.helical_pair.gear_file_pair import gear_file_oil
 from gearlube_core.dynamics.hypoid_axle.losses import axle_losses
 from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
@@ -113,7 +113,7 @@ def test_the_parts_are_the_whole_and_the_efficiency(found):
 
 
 def test_one_law_alone_spreads_the_loss_by_its_own_factor(monkeypatch):
-    monkeypatch.setattr(pair_losses, "UNCERTAIN", tuple(
+    monkeypatch.setattr(helical_uncertain, "UNCERTAIN", tuple(
         Uncertain(name, name, 1.5 if name == "sliding" else 1.0, "test")
         for name in ("viscosity", "eyring_stress", "alpha", "roughness", "sliding", "rolling")
     ))  # fmt: skip

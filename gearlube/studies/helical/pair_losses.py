@@ -15,19 +15,17 @@ from gearlube.studies.helical.settings import HelicalSettings
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
-from gearlube_core.dynamics.hypoid_axle.uncertain import UNCERTAIN as OF_AXLE
+from gearlube_core.dynamics.helical_uncertain import uncertain_of
 from gearlube_core.dynamics.hypoid_axle.uncertain import Uncertain
 from gearlube_core.film.biboulet_houpert_2010 import biboulet_houpert_force
 from gearlube_core.film.groups import inlet_heating_number
 from gearlube_core.film.zhu_cheng_1989 import zhu_cheng_heating
 from gearlube_core.film_model.model import MOST_OUTSIDE
-from gearlube_core.friction.flank_laws import AranaShare
 from gearlube_core.friction.line_integrals import LineFrictionCycle
 from gearlube_core.friction.line_points import LinePoints, line_points, table_line_load
 from gearlube_core.helical_geometry.contact_line import ContactPlane, line_kinematics
 from gearlube_core.kernels.jit import kernel
 from gearlube_core.mesh_table.line_mesh import LineMesh
-from gearlube_core.number import numbers_of
 from gearlube_core.oil.lubricant_state import LubricantState
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
@@ -38,31 +36,6 @@ SPEED_STEPS = (0.2, 2.0, 7)  # of the operating point's speed, geometric
 _FINE, _COARSE = (48, 8), (16, 4)  # phases and nodes: of the values, of the draws
 _LARGEST_OVER_MEAN = 4.0 / math.pi  # pressure of a Hertz line
 _BOUNDS = (2.5, 97.5)  # percent
-
-
-_OF_AXLE = {one.name: one for one in OF_AXLE}
-UNCERTAIN = (
-    *(_OF_AXLE[name] for name in ("viscosity", "eyring_stress", "alpha", "roughness")),
-    Uncertain("sliding", "law of sliding", 1.2, "laws of traction among each other; assumed"),
-    Uncertain("rolling", "law of rolling", 2.0, "flooded or starved inlet"),
-    _OF_AXLE["high_pressure"],
-)
-
-
-def uncertain_of(film: FilmFriction) -> tuple[Uncertain, ...]:
-    """Return the uncertain data, with the factors that oil and law have of their own."""
-    oil = film.oil
-    own = {
-        "alpha": oil.alpha_factor,
-        "eyring_stress": oil.eyring_stress_factor,
-        "high_pressure": oil.high_pressure_factor,
-    }
-    law = numbers_of(AranaShare).items() if film.asperities else ()
-    return tuple(
-        one if (factor := own.get(one.name)) is None else replace(one, factor=factor, why=oil.name)
-        for one in UNCERTAIN
-        if one.name != "high_pressure" or oil.pressure_factor() is not None
-    ) + tuple(Uncertain(name, one.text, one.factor, one.source) for name, one in law)
 
 
 @kernel
@@ -133,7 +106,7 @@ def losses_dataset(
     film, thinnest, heat = np.empty(shape), np.empty(shape), np.empty(shape)
     low, high = np.empty(shape), np.empty(shape)
     doubt, outside = np.empty(shape), np.empty(shape)
-    uncertain = uncertain_of(settings.film())
+    uncertain = uncertain_of(settings.film().oil, settings.film().asperities)
     normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(uncertain)))
     for j, torque in enumerate(torques):
         loads = [table_line_load(points, mesh, float(torque)) for points in (fine, coarse)]

@@ -70,8 +70,8 @@ def sweep(
     oil: Annotated[
         str | None,
         typer.Option(
-            help="mohammadpour_2015, karagiannis_2012 or an oil file (TOML). Default: that of the "
-            "axle.",
+            help="Shipped oil, such as karagiannis_2012, or an oil file (TOML). Default: that of "
+            "the axle.",
             metavar="OIL",
         ),
     ] = None,
