@@ -1,4 +1,4 @@
-"""HypoidAxle.fmu on a test bench in FMPy: losses at speeds and loads, and orders over a run-up."""
+"""A gear FMU on a test bench in FMPy: losses at speeds and loads, and orders over a run-up."""
 
 from __future__ import annotations
 
@@ -9,8 +9,15 @@ import numpy as np
 from fmpy import simulate_fmu
 from numpy.typing import NDArray
 
-TEETH, RATIO = 13, 36 / 13
 IMPOSED = 3  # of speed.hold.number
+
+
+def gears(fmu: Path) -> tuple[int, float]:
+    """Return the teeth of the pinion, and its speed over that of the wheel."""
+    names = ["pinion.speed", "wheel.speed", "mesh.frequency"]
+    found = simulate_fmu(str(fmu), stop_time=1e-3, output=names)
+    pinion, wheel, mesh = (float(found[name][0]) for name in names)
+    return round(2.0 * np.pi * mesh / pinion), pinion / wheel
 
 
 def loss_map(
@@ -21,9 +28,10 @@ def loss_map(
     `speeds` are those of the pinion [rad/s], `loads` torques of the wheel [N.m], `oil` is in K.
     """
     works, rows = ["energy.pinion_work", "energy.wheel_work", "pinion.angle"], []
+    ratio = gears(fmu)[1]
     for speed, load in ((v, t) for v in speeds for t in loads):
         given = {"speed.hold.number": IMPOSED, "speed.reference": speed, "oil.temperature": oil}
-        torques = {"pinion.torque": load / RATIO, "wheel.torque": load}  # the holder adds losses
+        torques = {"pinion.torque": load / ratio, "wheel.torque": load}  # the holder adds losses
         begin = {"pinion.speed_start": speed, **given, **torques}
         found = simulate_fmu(
             str(fmu), stop_time=0.4, output_interval=0.1, start_values=begin, output=works
@@ -34,9 +42,13 @@ def loss_map(
 
 
 def order_track(
-    fmu: Path, order: float = TEETH, seconds: float = 2.0
+    fmu: Path, order: float | None = None, seconds: float = 2.0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return speeds [rad/s] and amplitudes of the transmission error at an order [m]."""
+    """Return speeds [rad/s] and amplitudes of the transmission error at an order [m].
+
+    The order is in turns of the pinion; by default its teeth.
+    """
+    order = gears(fmu)[0] if order is None else order
     ramp = np.array([(0.0, 50.0), (seconds, 250.0)], [("time", float), ("speed.reference", float)])
     begin = {"speed.hold.number": IMPOSED, "pinion.speed_start": 50.0, "speed.reference": 50.0}
     names = ["pinion.angle", "pinion.speed", "mesh.dte"]
@@ -52,6 +64,8 @@ def order_track(
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("Usage: python speed_held_fmu.py HypoidAxle.fmu (or HelicalPair.fmu)")
     for torque, speed, loss in loss_map(Path(sys.argv[1]), [50.0, 200.0], [100.0, 300.0]):
         print(f"{torque:6.1f} N.m {speed:6.1f} rad/s {loss:7.1f} W")
     for speed, error in zip(*order_track(Path(sys.argv[1])), strict=True):

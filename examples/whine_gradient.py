@@ -1,12 +1,15 @@
 """Whine of an axle over a run-up, and how torques and oil change it: the gradient by casadi.
 
 casadi integrates the equations of HypoidAxle.fmu, and differentiates along the run by the FMU's
-directional derivatives, which are exact. Differences of two runs depend on their step.
+directional derivatives, which are exact. Differences of two runs depend on their step. Takes the
+path of a HypoidAxle.fmu of FMI 2.0; by default one of the paper's axle is built.
 """
 
 from __future__ import annotations
 
+import sys
 import tempfile
+from pathlib import Path
 from typing import Any
 
 import casadi
@@ -60,9 +63,9 @@ def run_up(folder: str) -> Any:
     return casadi.Function("whine", [changed], [casadi.sqrt(casadi.sum2(squares) / STEPS)])
 
 
-def main() -> tuple[float, np.ndarray, np.ndarray]:
+def main(fmu: Path) -> tuple[float, np.ndarray, np.ndarray]:
     """Return the acceleration, root mean square [m/s2], and its gradient, exact and otherwise."""
-    whine = run_up(str(extract(str(cached_hypoid_axle()), tempfile.mkdtemp())))
+    whine = run_up(str(extract(str(fmu), tempfile.mkdtemp())))
     u = np.array(list(INPUTS.values()))
     level = float(whine(u))
     exact = np.array(whine.forward(len(u))(u, level, np.eye(len(u)))).ravel()
@@ -72,7 +75,7 @@ def main() -> tuple[float, np.ndarray, np.ndarray]:
 
 
 if __name__ == "__main__":
-    level, gradient, differences = main()
+    level, gradient, differences = main(Path(sys.argv[1]) if sys.argv[1:] else cached_hypoid_axle())
     print(f"acceleration {level:.3f} m/s2")
     for name, exact, other in zip(INPUTS, gradient, differences, strict=True):
         print(f"by {name}: {exact:+.8f}, by differences {other:+.8f}")

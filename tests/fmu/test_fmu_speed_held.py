@@ -163,7 +163,7 @@ def test_the_recipe_of_an_order_track_follows_the_ramp_and_finds_the_resonance(
     )
     angle, error = (steady[name] for name in names)
     even = angle[-1] - 4.0 * np.pi + np.linspace(0.0, 4.0 * np.pi, 2048, endpoint=False)
-    wave = np.interp(even, angle, error) @ np.exp(1j * example.TEETH * even)
+    wave = np.interp(even, angle, error) @ np.exp(1j * 13 * even)  # teeth of the pinion
     # the window is two turns, in which the speed rises by 10 rad/s
     assert amplitudes[place] == pytest.approx(2.0 * abs(wave) / even.size, rel=0.1)
     assert amplitudes.max() > 5.0 * amplitudes[0]
