@@ -131,18 +131,31 @@ def write_units(root: ElementTree.Element, definition: Definition) -> None:
             ElementTree.SubElement(element, "DisplayUnit", attributes)
 
 
-def _types(root: ElementTree.Element, definition: Definition) -> None:
-    enumerations = [v for v in definition.variables if v.type == "Enumeration"]
+def write_types(root: ElementTree.Element, definition: Definition, *tags: str) -> None:
+    """Add TypeDefinitions: each type is an element of the first tag, others lie inside it."""
+    enumerations = [v for v in definition.variables if v.literals]
     if not enumerations:
         return  # the element must not be empty
     parent = ElementTree.SubElement(root, "TypeDefinitions")
     for variable in enumerations:
-        simple = ElementTree.SubElement(
-            parent, "SimpleType", name=type_name(variable), description=variable.description
-        )
-        enumeration = ElementTree.SubElement(simple, "Enumeration")
+        named = {"name": type_name(variable), "description": variable.description}
+        element = parent
+        for tag in tags:
+            element = ElementTree.SubElement(element, tag, named if element is parent else {})
         for value, literal in enumerate(variable.literals, start=1):
-            ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
+            ElementTree.SubElement(element, "Item", name=literal, value=str(value))
+
+
+def named_attributes(variable: Variable, reference: int) -> dict[str, str]:
+    """Return the attributes that every variable has, the same in FMI 2 and 3."""
+    attributes = {
+        "name": variable.name,
+        "valueReference": str(reference),
+        "description": variable.description,
+        "causality": variable.causality,
+        "variability": variable.variability,
+    }
+    return attributes | ({"initial": variable.initial} if variable.initial else {})
 
 
 def attributes_of(variable: Variable) -> dict[str, str]:
@@ -169,16 +182,9 @@ def _variables(
 ) -> None:
     parent = ElementTree.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(definition.variables):
-        attributes = {
-            "name": variable.name,
-            "valueReference": str(reference),
-            "description": variable.description,
-            "causality": variable.causality,
-            "variability": variable.variability,
-        }
-        if variable.initial is not None:
-            attributes["initial"] = variable.initial
-        scalar = ElementTree.SubElement(parent, "ScalarVariable", attributes)
+        scalar = ElementTree.SubElement(
+            parent, "ScalarVariable", named_attributes(variable, reference)
+        )
         of_type = attributes_of(variable)
         if exchange and variable.rate_of:
             of_type["derivative"] = str(definition.references[variable.rate_of] + 1)
@@ -257,6 +263,31 @@ def xml_bytes(root: ElementTree.Element) -> bytes:
     return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
 
 
+def description_root(
+    fmi: str, definition: Definition, identifier: str, guid: str, tool: str
+) -> ElementTree.Element:
+    """Return the root of a description, with what FMI 2 and 3 both ask for.
+
+    `identifier` is the name that the version of the standard has for the GUID; `tool` is what
+    makes the FMU beside gearlube.
+    """
+    release = version("gearlube")
+    return ElementTree.Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": fmi,
+            "modelName": definition.name,
+            identifier: guid,
+            "description": definition.description,
+            "author": "The gearlube developers",
+            "version": release,
+            "license": "MIT",
+            "generationTool": f"gearlube {release}{tool}",
+            "variableNamingConvention": "structured",
+        },
+    )
+
+
 def model_description(
     definition: Definition, guid: str, *, native: bool = False, exchange: Exchange | None = None
 ) -> bytes:
@@ -278,25 +309,9 @@ def model_description(
     generationDateAndTime is optional in FMI 2.0 (section 2.2.1) and left out, so that a build can
     be repeated bit for bit.
     """
-    release = version("gearlube")
-    tool = (
-        f"gearlube {release}" if native else f"gearlube {release}, PythonFMU {version('pythonfmu')}"
-    )
-    root = ElementTree.Element(
-        "fmiModelDescription",
-        {
-            "fmiVersion": "2.0",
-            "modelName": definition.name,
-            "guid": guid,
-            "description": definition.description,
-            "author": "The gearlube developers",
-            "version": release,
-            "license": "MIT",
-            "generationTool": tool,
-            "variableNamingConvention": "structured",
-            "numberOfEventIndicators": str(len(exchange.indicators) if exchange else 0),
-        },
-    )
+    tool = "" if native else f", PythonFMU {version('pythonfmu')}"
+    root = description_root("2.0", definition, "guid", guid, tool)
+    root.set("numberOfEventIndicators", str(len(exchange.indicators) if exchange else 0))
     common = {
         "canBeInstantiatedOnlyOncePerProcess": "false",
         "canNotUseMemoryManagementFunctions": "true",
@@ -330,7 +345,7 @@ def model_description(
         },
     )
     write_units(root, definition)
-    _types(root, definition)
+    write_types(root, definition, "SimpleType", "Enumeration")
     write_log_categories(root)
     write_default_experiment(root, definition)
     _variables(root, definition, exchange)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from importlib.metadata import version
 from xml.etree import ElementTree
 
 from fmu_src.definition import MAP, Definition
 from fmu_src.model_description import (
     attributes_of,
     dependencies_of,
+    description_root,
+    named_attributes,
     number_text,
-    type_name,
     write_default_experiment,
     write_log_categories,
+    write_types,
     write_units,
     xml_bytes,
 )
@@ -33,15 +34,7 @@ def _variable(
     parent: ElementTree.Element, array: ArrayVariable, definition: Definition, state: int | None
 ) -> None:
     variable: Variable = array.variable
-    attributes = {
-        "name": variable.name,
-        "valueReference": str(array.references[0]),
-        "description": variable.description,
-        "causality": variable.causality,
-        "variability": variable.variability,
-    }
-    if variable.initial is not None:
-        attributes["initial"] = variable.initial
+    attributes = named_attributes(variable, array.references[0])
     if state is not None:
         attributes["derivative"] = str(state)
     attributes |= attributes_of(variable)
@@ -53,19 +46,6 @@ def _variable(
     of_map = (variable.name, f"{MAP}.codomain") in definition.map_members
     for length in definition.map_shape if of_map else (n,) * (n > 1):
         ElementTree.SubElement(element, "Dimension", start=str(length))
-
-
-def _types(root: ElementTree.Element, definition: Definition) -> None:
-    enumerations = [variable for variable in definition.variables if variable.literals]
-    if not enumerations:  # an empty element is no valid one
-        return
-    parent = ElementTree.SubElement(root, "TypeDefinitions")
-    for variable in enumerations:
-        enumeration = ElementTree.SubElement(
-            parent, "EnumerationType", name=type_name(variable), description=variable.description
-        )
-        for value, literal in enumerate(variable.literals, start=1):
-            ElementTree.SubElement(enumeration, "Item", name=literal, value=str(value))
 
 
 def _structure(
@@ -111,20 +91,7 @@ def model_description_3(
     exchange : Exchange, optional
         Of an FMU that is for model exchange too.
     """
-    root = ElementTree.Element(
-        "fmiModelDescription",
-        {
-            "fmiVersion": "3.0",
-            "modelName": definition.name,
-            "instantiationToken": token,
-            "description": definition.description,
-            "author": "The gearlube developers",
-            "version": version("gearlube"),
-            "license": "MIT",
-            "generationTool": f"gearlube {version('gearlube')}",
-            "variableNamingConvention": "structured",
-        },
-    )
+    root = description_root("3.0", definition, "instantiationToken", token, "")
     common = {
         "modelIdentifier": definition.name,
         "needsExecutionTool": "false",
@@ -147,7 +114,7 @@ def model_description_3(
         root, "CoSimulation", {**common, "canHandleVariableCommunicationStepSize": "true"}
     )
     write_units(root, definition)
-    _types(root, definition)
+    write_types(root, definition, "EnumerationType")
     write_log_categories(root)
     write_default_experiment(root, definition)
     parent = ElementTree.SubElement(root, "ModelVariables")

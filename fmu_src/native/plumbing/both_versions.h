@@ -1,5 +1,6 @@
 /* Functions that FMI 2 and FMI 3 have alike. fmi2.c and fmi3.c include this, each behind its own
-   `#define FMI(name)`, which puts the version before a name. */
+   `#define FMI(name)`, which puts the version before a name, and `#define STATE(before, after)`: FMI 2
+   writes FMUstate, FMI 3 FMUState. */
 
 static FMI(Status) answer(gl_status status)
 {
@@ -47,6 +48,31 @@ HAND_OVER_VALUES(SetContinuousStates, gl_set_states, const double)
 HAND_OVER_VALUES(GetContinuousStates, gl_get_states, double)
 HAND_OVER_VALUES(GetNominalsOfContinuousStates, gl_get_nominals, double)
 HAND_OVER_VALUES(GetEventIndicators, gl_get_indicators, double)
+
+FMI(Status) STATE(Get, )(void *c, void **state)
+{
+    return answer(GL_CALL(c, gl_save(c, state)));
+}
+
+FMI(Status) STATE(Set, )(void *c, void *state)
+{
+    return answer(GL_CALL(c, gl_restore(c, state)));
+}
+
+FMI(Status) STATE(Free, )(void *c, void **state)
+{
+    return answer(GL_CALL(c, gl_forget(c, state)));
+}
+
+FMI(Status) STATE(Serialized, Size)(void *c, void *state, size_t *size)
+{
+    return answer(GL_CALL(c, gl_state_size(c, state, size)));
+}
+
+FMI(Status) STATE(Serialize, )(void *c, void *state, FMI(Byte) bytes[], size_t size)
+{
+    return answer(GL_CALL(c, gl_serialise(c, state, (unsigned char *)bytes, size)));
+}
 
 FMI(Status) FMI(CompletedIntegratorStep)(void *c, FMI(Boolean) no_way_back,
                                          FMI(Boolean) *enter_event_mode, FMI(Boolean) *terminate)

@@ -23,11 +23,14 @@ gl_status gl_enter_continuous_time(gl_instance *instance)
     return status;
 }
 
-/* Lets a copy of the state take what an event changes. */
-static gl_status event(gl_instance *instance, double *state)
+/* Lets a copy of the state take what an event changes, in this phase alone. */
+static gl_status event(gl_instance *instance, gl_phase phase, double *state)
 {
     double inputs[GL_MOST_INPUTS] = {0.0}; /* those in the state count */
-    gl_status status = gl_take_inputs(instance);
+    gl_status status = gl_expect(instance, phase);
+    if (status == GL_OK) {
+        status = gl_take_inputs(instance);
+    }
     if (status != GL_OK) {
         return status;
     }
@@ -45,10 +48,7 @@ static gl_status event(gl_instance *instance, double *state)
 gl_status gl_update_discrete(gl_instance *instance, int *states_changed)
 {
     double state[GL_MOST_STATE];
-    gl_status status = gl_expect(instance, GL_EVENTS);
-    if (status == GL_OK) {
-        status = event(instance, state);
-    }
+    gl_status status = event(instance, GL_EVENTS, state);
     if (status != GL_OK) {
         return status;
     }
@@ -67,10 +67,7 @@ gl_status gl_update_discrete(gl_instance *instance, int *states_changed)
 gl_status gl_complete_step(gl_instance *instance, int *due)
 {
     double state[GL_MOST_STATE];
-    gl_status status = gl_expect(instance, GL_CONTINUOUS_TIME);
-    if (status == GL_OK) {
-        status = event(instance, state);
-    }
+    gl_status status = event(instance, GL_CONTINUOUS_TIME, state);
     if (status != GL_OK) {
         return status;
     }

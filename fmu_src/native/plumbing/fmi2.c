@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define FMI(name) fmi2##name
+#define STATE(before, after) fmi2##before##FMUstate##after
 #include "both_versions.h"
 
 /* The logger takes a text like that of printf, with #r1# for a variable. The message is sent as that
@@ -139,31 +140,6 @@ fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
                          const fmi2String value[])
 {
     return no_strings(c, n);
-}
-
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
-{
-    return answer(GL_CALL(c, gl_save(c, state)));
-}
-
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
-{
-    return answer(GL_CALL(c, gl_restore(c, state)));
-}
-
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
-{
-    return answer(GL_CALL(c, gl_forget(c, state)));
-}
-
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
-{
-    return answer(GL_CALL(c, gl_state_size(c, state, size)));
-}
-
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
-{
-    return answer(GL_CALL(c, gl_serialise(c, state, (unsigned char *)bytes, size)));
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size,

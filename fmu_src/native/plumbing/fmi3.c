@@ -9,6 +9,7 @@
 static const char *const type_names[] = {"Float64", "Int32", "Boolean"}; /* by gl_kind */
 
 #define FMI(name) fmi3##name
+#define STATE(before, after) fmi3##before##FMUState##after
 #include "both_versions.h"
 
 static void tell(gl_instance *instance, gl_status status, const char *category, const char *text)
@@ -274,31 +275,6 @@ fmi3Status fmi3SetBinary(fmi3Instance c, const fmi3ValueReference refs[], size_t
                          const size_t sizes[], const fmi3Binary values[], size_t n_values)
 {
     return unsupported(c, n, "variable of type Binary");
-}
-
-fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state)
-{
-    return answer(GL_CALL(c, gl_save(c, state)));
-}
-
-fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state)
-{
-    return answer(GL_CALL(c, gl_restore(c, state)));
-}
-
-fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state)
-{
-    return answer(GL_CALL(c, gl_forget(c, state)));
-}
-
-fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size)
-{
-    return answer(GL_CALL(c, gl_state_size(c, state, size)));
-}
-
-fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size)
-{
-    return answer(GL_CALL(c, gl_serialise(c, state, bytes, size)));
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size,
