@@ -287,7 +287,7 @@ def test_variables_of_the_losses_are_known(monkeypatch):
         oil_temperature=oil_temperature, formulas=film))  # fmt: skip
     monkeypatch.setattr(pair_losses, "_losses", losses)
     monkeypatch.setattr(pair_losses, "_spread", lambda *_: np.array([0.5, 2.0]))
-    film = named(oil=OIL, film="solved", film_models={})
+    film = named(oil=OIL, film="solved", film_models={}, asperities=None)
     torque, speed = np.array([50.0, 100.0]), np.array([10.0, 100.0])
     settings = named(
         **SETTINGS, film=lambda: film, load_steps=(50.0, 100.0), speeds=(10.0, 100.0),
