@@ -150,37 +150,16 @@ def wanted_factor(law: str) -> float:
 
 
 def factors() -> list[list[str]]:
-    """Return the rows of the error bars and what they follow from."""
+    """Return the rows of misfits and of the error bars that follow from them."""
     rows = []
     for law in sorted(LAWS, key=wanted_factor):
-        spans = [f"{r.min():.2f} to {r.max():.2f}" for r in (ratios(law), ratios_32008(law))]
-        rows.append([
-            LAW_NAMES[law], *spans, f"{wanted_factor(law):.2f}", f"{UNCALIBRATED[law]:g}",
-        ])  # fmt: skip
-    return rows
-
-
-def torques() -> list[list[str]]:
-    """Return the rows of measured and computed torques."""
-    rows = []
-    for point in POINTS:
-        row = [f"{point.degc:g}", f"{point.radial:g}", str(point.rpm), f"**{point.torque:.2f}**"]
-        rows.append([*row, *(f"{loss(point, law=law).torque:.2f}" for law in LAWS)])
-    return rows
-
-
-def misfits() -> list[list[str]]:
-    """Return the rows of misfits, best law first."""
-    rows = []
-    for law in sorted(LAWS, key=lambda one: _rms(ratios(one))):
-        found = ratios(law)
+        found, other = ratios(law), ratios_32008(law)
         logs = np.log(found)
-        scatter = float(np.std(logs))
-        factor = UNCALIBRATED[law]
         rows.append([
             LAW_NAMES[law], f"{found.min():.2f} to {found.max():.2f}",
             f"{math.exp(logs.mean()):.2f}", f"{100 * _rms(found):.0f} %",
-            f"{100 * scatter:.0f} %", f"{factor:g}",
+            f"{100 * float(np.std(logs)):.0f} %", f"{other.min():.2f} to {other.max():.2f}",
+            f"{wanted_factor(law):.2f}", f"{UNCALIBRATED[law]:g}",
         ])  # fmt: skip
     return rows
 
@@ -209,19 +188,9 @@ def parts() -> list[list[str]]:
 
 
 def needed(page: Page) -> None:
-    """Put in what flooded films would need: rows, and the ranges of layer and warmth."""
-    rows, layers, rises = [], [], []
-    for point in POINTS:
-        layer = _root(point, "inlet_layer", 1e-8, 1e-3)
-        rise = _root(point, "temperature_rise", 0.0, 60.0)
-        layers.append(1e6 * layer)
-        rises.append(rise)
-        flooded = loss(point, law="biboulet_houpert").torque / point.torque
-        rows.append([
-            f"{point.degc:g}", f"{point.radial:g}", str(point.rpm), f"{flooded:.2f}",
-            f"{1e6 * layer:.1f}", f"{rise:.0f}",
-        ])  # fmt: skip
-    page.rows("oil [°C] | radial [N] | speed [rpm] | flooded", rows)
+    """Put in what flooded films would need to give the measured torques: layer or warmth."""
+    layers = [1e6 * _root(point, "inlet_layer", 1e-8, 1e-3) for point in POINTS]
+    rises = [_root(point, "temperature_rise", 0.0, 60.0) for point in POINTS]
     page.fill(
         "their factor for a thin inlet layer): {} of oil on both",
         f"{min(layers):.0f} to {max(layers):.0f} µm",
@@ -348,9 +317,8 @@ def picture() -> Any:
 
 
 def measured(page: Page) -> None:
-    """Put in what the laws give at the measured points."""
-    page.rows("oil [°C] | radial [N] | speed [rpm] | measured", torques())
-    page.rows("law | computed/measured", misfits())
+    """Put in what the laws give for the measured bearings."""
+    page.rows("law | 32216", factors())
     page.rows("point | rolling", parts())
     best, second = sorted(LAWS, key=lambda one: _rms(ratios(one)))[:2]
     page.fill(
@@ -365,7 +333,6 @@ def measured(page: Page) -> None:
 def main() -> None:
     """Write the page and the figure."""
     page = Page("bearing")
-    page.rows("law | 32216", factors())
     measured(page)
     page.rows("speed [rpm] | solved F", solved())
     film_model(page)
