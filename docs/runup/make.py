@@ -27,6 +27,7 @@ TORQUE = 80.0  # N.m
 STEADY_KMH = (60.0, 100.0)
 ORDERS = (1, 2, 3)
 _DPI = 100
+SHOWN = ("order_tracks", "waterfall", "campbell", "operating_shape")
 
 
 def main() -> None:
@@ -43,7 +44,7 @@ def main() -> None:
     ramp = run_runup(settings)
     page = Page("runup")
     for entry in CATALOGUE:
-        if entry.name != "overview":
+        if entry.name in SHOWN:
             entry.draw(ramp).savefig(IMAGES / f"runup_{entry.name}.png", dpi=_DPI)
             page.paragraph(f"](images/runup_{entry.name}.png)", entry.caption)
     moving = animate_ramp(settings, ramp)
