@@ -160,7 +160,7 @@ def trends(cars: list[CarAxle], shared: list[CarAxle]) -> list[list[str]]:
         lost = losses(car, 30.0, 200.0, np.array([40.0, 100.0]))[:, 0, 0].sum(-1)
         warm.append(float(lost[1] / lost[0]))
     rows.append([*_text(warm, " times"), _held(*(one < 1.0 for one in warm))])
-    for some, otherwise in ((cars, "not held: it falls, see below"), (shared, "not held")):
+    for some, otherwise in ((cars, "not held: it falls, see above"), (shared, "not held")):
         flanks = []
         for car in some:
             slow = losses(car, 300.0, 3.0, np.array([40.0, 120.0]))[:, 0, 0]
