@@ -58,7 +58,7 @@ def main() -> None:
         )
     page.fill("80 °C, preload {} N. What the report", f"{ramp.attrs['bearing_preload']:.0f}")
     found = (f"- **{one.headline}** {one.detail}".rstrip() for one in findings(ramp))
-    page.paragraph("What the report says of it:", "\n".join(found))
+    page.paragraph("Findings of the report:", "\n".join(found))
     page.write()
 
 

@@ -132,7 +132,7 @@ def check_oil(model: FilmModel, oil: Lubricant, solid: Solid, what: str) -> None
     -----
     Compared are the groups that oil and solid alone decide at 0.5 GPa: shape and fall with
     temperature of the viscosity, Eyring stress, conductivity and heat capacity. Speed, load and
-    temperature of a run come on top; the share outside says how far they are covered.
+    temperature of a run are added; the share outside says how far they are covered.
     """
     misfits = _misfits(model, oil, solid)
     if misfits:

@@ -174,7 +174,7 @@ def sentence(
 ) -> str:
     """Return a pydantic error as a sentence: field, allowed value, given value.
 
-    `unmodelled` says of words in unknown fields and their values why there is no such field.
+    `unmodelled` has, by words in unknown fields and values, the reason why no such field exists.
     """
     field = ".".join(str(part) for part in error["loc"])
     whole = _ENTRY.sub("", field)

@@ -83,7 +83,7 @@ class ContactKind:
     predict
         Film and friction by the numbers of a model.
     smooth
-        As of `fit_process`; lines in slow sliding hang on their pressure spikes, thin ellipses on
+        As of `fit_process`; lines in slow sliding depend on their pressure spikes, thin ellipses on
         the grid.
     """
 

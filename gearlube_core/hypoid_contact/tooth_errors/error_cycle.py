@@ -30,7 +30,7 @@ from gearlube_core.tooth_contact.coupled_strips import PairStiffness
 from gearlube_core.tooth_contact.mesh_cycle import compute_positions, stack_records
 
 _POSITIONS_PER_ORDER = 4  # as in the mesh table: what is above folds onto the rest
-_MOST_ORDERS = 8  # that are told of what repeats with the hunting turn alone
+_MOST_ORDERS = 8  # kept of those that repeat with the hunting turn alone
 _NOTHING = 1e-9  # of the largest error: rounding
 _FORMAT = 2  # raise with every change of the model that changes results
 

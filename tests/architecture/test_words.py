@@ -1,0 +1,33 @@
+"""Words that readers of English as a second language stumble over stay out of pages and code."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+_WORDS = re.compile(
+    r"\b(comes? on top|hangs? on|anew|ditto|told of|says of|tells of|speaks of|in the place of"
+    r"|unless said|errs on)\b"
+)
+_FOLDERS = ("gearlube", "gearlube_core", "drivetrain", "fmu_src", "docs", "examples")
+
+
+def test_pages_and_code_use_plain_words():
+    """Write: is added, depends on, again, the same, about, instead of, unless stated."""
+    files = [
+        *(
+            path
+            for one in _FOLDERS
+            for end in ("py", "md")
+            for path in (ROOT / one).rglob(f"*.{end}")
+        ),
+        *(ROOT / name for name in ("README.md", "CONTRIBUTING.md")),
+    ]
+    found = [
+        f"{path.relative_to(ROOT)}:{number}: {word[0]}"
+        for path in files
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if (word := _WORDS.search(line))
+    ]
+    assert not found, "\n".join(found)
