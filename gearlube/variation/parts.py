@@ -38,8 +38,8 @@ def check_parts(design: Design, parts: int) -> None:
     if not design.spreads or design.samples < least:
         raise ParameterError(
             f"--parts needs at least {least} samples to train and check a model, got "
-            f"{design.samples if design.spreads else 0}. Give --tolerances or --scatter, and "
-            "--design lhs:200."
+            f"{design.samples if design.spreads else 0}. Give --design lhs:200, with --tolerances, "
+            "--scatter or ranges to sample."
         )
     if design.size > design.samples:
         several = next(axis for axis in design.axes if len(axis.values) > 1)

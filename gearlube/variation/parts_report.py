@@ -143,8 +143,10 @@ def findings(results: xr.Dataset, many: xr.Dataset) -> list[Finding]:
                 Finding(
                     WARNING if float(cell["share_above"][0]) > 0.0 else GOOD,
                     f"{_share(cell['share_above'])} of {many.attrs['parts']} parts have a {name} "
-                    f"above {quantity_text(limit, unit)}.",
-                    f"The full runs alone, without a model: {_share(cell['share_of_runs'])}.",
+                    f"above {quantity_text(limit, unit)}; of the full runs alone "
+                    f"{_share(cell['share_of_runs'])}.",
+                    "The first holds for errors of the quick model such as were seen; the second "
+                    "needs no model.",
                 )
             )
         pays = "; ".join(f"by {words}: {_largest(cell[one])}" for one, words in METHODS.items())

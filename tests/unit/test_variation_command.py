@@ -96,6 +96,7 @@ def test_many_parts_of_a_tolerance_file_are_predicted_with_their_share_above_a_l
     code, said = run("vary", "bearing", "--tolerances", "load.toml", *words, "--out", "results")
     assert code == 0, said
     assert "of 500 parts have a torque above 1.70 N·m" in said
+    assert "of the full runs alone" in said
     assert "load.axial_n 100 %" in said  # the one tolerance has all of the scatter
     folder = tmp_path / "results"
     assert (folder / "parts.nc").is_file()

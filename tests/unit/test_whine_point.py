@@ -7,8 +7,14 @@ from drivetrain.axle_file.read_axle import gear_file_of
 from gearlube.studies.sound.transfer_path import AXLE_FORCES, TransferPath
 from gearlube.studies.sweep.recording import Recording
 from gearlube.variation.point_study import point_study
-from gearlube.variation.points.whine import levels, lines, order_pressures
+from gearlube.variation.points.contact import teeth_of
+from gearlube.variation.points.whine import levels, lines, order_pressures, table_as_built
 from gearlube_core.errors import ParameterError
+from gearlube_core.hypoid_contact.contact_dataset import contact_dataset
+from gearlube_core.hypoid_contact.contact_table import contact_table
+from gearlube_core.hypoid_contact.mesh_cycle import SIDES, CycleSettings, run_cycle
+from gearlube_core.hypoid_contact.placement import Misalignment
+from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 
 TEETH = 13, 36
 
@@ -85,3 +91,24 @@ def test_errors_of_teeth_make_sidebands_and_misalignment_moves_the_mesh_order():
     assert round_off["level_beside_1"] > sound["level_beside_1"] + 30.0  # without: numerical noise
     assert abs(moved["level_mesh_1"] - sound["level_mesh_1"]) > 0.1
     assert louder["whine_level"] == pytest.approx(sound["whine_level"] + 3.0, abs=1e-9)
+
+
+@pytest.mark.slow
+def test_a_table_as_built_is_that_of_the_whole_contact_analysis():
+    """Analyses a hypoid pair out of place, both flanks: a quarter of a minute."""
+    study = point_study("whine", quick=True)
+    file, torque = study.gears, 50.0
+    place = Misalignment(pinion_axial=30e-6, shaft_angle=2e-4)
+    settings = CycleSettings(torques=(torque,), positions=8, misalignment=place)
+    stiffness = {
+        side: teeth_of(file.model_dump_json(), ToothBodySettings())[side] for side in SIDES
+    }
+    cycle = run_cycle(file, stiffness, settings, jobs=1)
+    whole = contact_table(file, contact_dataset(file, settings, cycle))
+    built = table_as_built(study.axle.car_axle({}).axle.mesh, torque, cycle["drive"])
+    for name in ("k_t", "R_p", "R_g", "n_x", "n_y", "n_z"):
+        assert built.series[name][0] == pytest.approx(whole.series[name][-1], abs=1e-9, rel=1e-9)
+    # the first touch at 8 places of the mesh, and at 64: orders above 4 fold
+    size = np.abs(whole.series["e"][-1, 1:]).max()
+    assert built.series["e"][0, 1:3] == pytest.approx(whole.series["e"][-1, 1:3], abs=0.1 * size)
+    assert built.series["k_m"][0] == pytest.approx(whole.series["k_m"][-1], rel=1e-2, abs=5e5)
