@@ -87,16 +87,37 @@ def why(error: Exception) -> str:
     return (getattr(error, "strerror", None) or str(error)).rstrip(".")
 
 
+# the command that writes a file of a kind to start from
+_EXAMPLES = {
+    "axle file": "sweep",
+    "gear file": "contact",
+    "blank file": "design",
+    "bearing file": "bearing",
+    "train file": "drivetrain",
+    "oil file": "oil show",
+    "problem file": "optimise hypoid",
+    "point contact": "ehl point",
+    "line contact": "ehl line",
+    "hypoid flank": "ehl hypoid",
+    "rough line contact": "ehl rough",
+}
+
+
 def unread(what: str, path: str | Path, error: Exception) -> str:
     """Return why a file cannot be read, as a sentence without its full stop.
 
     Examples
     --------
-    >>> unread("axle file", "/cars/my_axle.toml", FileNotFoundError(2, "No such file"))
-    'The axle file my_axle.toml was not found in /cars, which is no folder'
+    >>> unread("axle file", "/cars/my.toml", FileNotFoundError())  # doctest: +ELLIPSIS
+    'The axle file my.toml was not found in /cars, which is no folder; `gearlube sweep --exam...'
     """
     if isinstance(error, FileNotFoundError):
-        return f"The {what} {Path(path).name} was not found in {_folder(path)}"
+        name, start = Path(path).name, ""
+        if command := _EXAMPLES.get(what):
+            start = f"; `gearlube {command} --example > {name}` writes one to start from"
+        if what == "gear file":
+            start += ", with `gearlube helical` of a helical pair"
+        return f"The {what} {name} was not found in {_folder(path)}{start}"
     return f"The {what} {path} cannot be read: {why(error)}"
 
 
