@@ -57,7 +57,7 @@ def lubricated(data: dict[str, Any], film: str) -> None:
     second = {"pinion": "counter.pinion", "gear": "output.gear", "right_hand": True}
     data["elements"]["stage_1"] = gears | first | {"angle_deg": -40.0}
     data["elements"]["stage_2"] = gears | second | {"angle_deg": 20.0}
-    pair = gl.helical_march_parameters(gl.HelicalGearFile.named("he_2007")).pair
+    pair = gl.gears.helical_march_parameters(gl.HelicalGearFile.named("he_2007")).pair
     data["start"]["speed_rpm"] = {"left_wheel": 60.0 * _MESHES / pair.pinion_teeth / pair.ratio**2}
     motor = data["start"]["torque_n_m"]["motor"]
     for road in ("left_road", "right_road"):

@@ -1,6 +1,6 @@
 """Write docs/api.md, the page of public names: `python -m docs.api`.
 
-The names and their groups are those of gearlube/__init__.pyi. What is said of a name, and its
+The names and their groups are those of the stubs gearlube/*.pyi. What is said of a name, and its
 example, are the first sentence and the examples of its docstring.
 """
 
@@ -10,19 +10,25 @@ import doctest
 import inspect
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import gearlube
 
 PAGE = Path(__file__).with_suffix(".md")
-STUB = Path(gearlube.__file__).with_suffix(".pyi")
+_FACE = Path(gearlube.__file__)
+STUBS = {
+    "gl": _FACE.with_suffix(".pyi"),
+    **{f"gl.{one.stem}": one for one in sorted(_FACE.parent.glob("[a-z]*.pyi"))},
+    "gl.studies": _FACE.with_name("studies") / "__init__.pyi",
+}
 _HEAD = """# Public names
 
 ```python
 import gearlube as gl
 ```
 
-Every name below is an attribute of `gl`. A module is imported when one of its names is first used.
+The most used names are attributes of `gl`, the others of its modules `gl.oil`, `gl.film` and so
+on. A module is imported when one of its names is first used.
 All quantities are in SI units; other units stand in names (`speed_kmh`). Names that are not on this
 page may change without notice. Whole scripts stand in `examples/`:
 [an axle under a torque ramp](../examples/axle_torque_ramp.py),
@@ -38,26 +44,34 @@ This page is written by `python -m docs.api` from docstrings; the tests run its 
 
 
 class Group(NamedTuple):
-    """Names under one heading."""
+    """Names under one heading; `module` is gl or one of its modules."""
 
+    module: str
     title: str
     names: list[str]
 
 
 def groups() -> list[Group]:
-    """Return the public names in the groups of the stub."""
+    """Return the public names in the groups of the stubs."""
     found: list[Group] = []
-    for line in STUB.read_text(encoding="utf-8").splitlines():
-        if heading := re.fullmatch(r"# -- (.+)", line):
-            found.append(Group(heading[1], []))
-        if found:
-            found[-1].names.extend(name for _, name in re.findall(r"(\w+) as (\w+)", line))
+    for module, stub in STUBS.items():
+        for line in stub.read_text(encoding="utf-8").splitlines():
+            if heading := re.fullmatch(r"# -- (.+)", line):
+                found.append(Group(module, heading[1], []))
+            elif found and found[-1].module == module:
+                found[-1].names.extend(name for _, name in re.findall(r"(\w+) as (\w+)", line))
     return found
 
 
-def example(name: str) -> str:
+def public(module: str, name: str) -> Any:
+    """Return what a public name stands for."""
+    of = gearlube if module == "gl" else getattr(gearlube, module.removeprefix("gl."))
+    return getattr(of, name)
+
+
+def example(module: str, name: str) -> str:
     """Return the example of a name's docstring as it would be typed, empty if it has none."""
-    text = inspect.getdoc(getattr(gearlube, name)) or ""
+    text = inspect.getdoc(public(module, name)) or ""
     lines = []
     for part in doctest.DocTestParser().get_examples(text):
         source = part.source.removesuffix("\n").splitlines()
@@ -69,13 +83,17 @@ def example(name: str) -> str:
 def page() -> str:
     """Return the text of the page."""
     parts = [_HEAD]
-    for title, names in groups():
-        parts.append(f"## {title}\n")
+    last = "gl"
+    for module, title, names in groups():
+        if module != last:
+            parts.append(f"## {module}\n\n{inspect.getdoc(public('gl', module[3:]))}\n")
+            last = module
+        parts.append(f"{'##' if module == 'gl' else '###'} {title}\n")
         for name in names:
-            value = getattr(gearlube, name)
+            value = public(module, name)
             first = " ".join((inspect.getdoc(value) or "").split("\n\n")[0].split())
-            parts.append(f"### `{name}`\n\n{first}\n")
-            if shown := example(name):
+            parts.append(f"#### `{module}.{name}`\n\n{first}\n")
+            if shown := example(module, name):
                 parts.append(f"```python\n{shown}\n```\n")
     return "\n".join(parts)
 

@@ -4,7 +4,7 @@ import gearlube as gl
 
 STEP = 1e-4  # s
 OIL = gl.celsius_to_kelvin(80.0)
-RATIO = gl.shipped_mesh_table("mohammadpour_2015").ratio
+RATIO = gl.gears.shipped_mesh_table("mohammadpour_2015").ratio
 
 
 def ramp(first: float = 30.0, last: float = 120.0, steps: int = 1000) -> list[tuple[float, ...]]:

@@ -44,7 +44,7 @@ class WholeCase(NamedTuple):
 
     stiffness: sp.csc_matrix
     mass: sp.csc_matrix
-    nodes: tuple[gl.InterfaceNode, ...]
+    nodes: tuple[gl.train.InterfaceNode, ...]
     owner: np.ndarray  # of the last coordinates: node, and direction from 0 to 5
     direction: np.ndarray
 
@@ -88,11 +88,11 @@ def whole_case() -> WholeCase:
     for name, (x, y, z, bore, _, start, end) in SEATS.items():
         away = np.maximum(abs(places[0] - x), abs(places[1] - y))
         inside = (away < bore + 1e-6) & (places[2] > start - 1e-6) & (places[2] < end + 1e-6)
-        nodes.append((gl.InterfaceNode(name, x, y, z), inside))
+        nodes.append((gl.train.InterfaceNode(name, x, y, z), inside))
     for name, corner in MOUNTS.items():
         at = LOW + corner * (HIGH - LOW)
         inside = abs(places - at[:, None]).max(axis=0) < MOUNT_SIZE
-        nodes.append((gl.InterfaceNode(name, *at.tolist()), inside))
+        nodes.append((gl.train.InterfaceNode(name, *at.tolist()), inside))
     tied = np.zeros(3 * n, bool)
     for k, (node, inside) in enumerate(nodes):
         moved = np.flatnonzero(inside)
@@ -110,7 +110,7 @@ def whole_case() -> WholeCase:
         tied[way * n + i] = True
         ties.append((np.array([way * n + i]), len(owner), np.ones(1)))
         owner, direction = [*owner, len(nodes)], [*direction, way]
-        nodes.append((gl.InterfaceNode(name, *places[:, i].tolist()), None))
+        nodes.append((gl.train.InterfaceNode(name, *places[:, i].tolist()), None))
     free = np.flatnonzero(~tied)
     rows = np.concatenate([free, *(one[0] for one in ties)])
     columns = [np.arange(free.size), *(np.full(r.size, free.size + c) for r, c, _ in ties)]
@@ -138,7 +138,7 @@ def free_modes(whole: WholeCase, count: int) -> tuple[np.ndarray, np.ndarray]:
     return eigsh(whole.stiffness, count, whole.mass, sigma=shift, OPinv=inverse)
 
 
-def reduced_case(whole: WholeCase, modes: int) -> gl.ReducedModel:
+def reduced_case(whole: WholeCase, modes: int) -> gl.train.ReducedModel:
     """Return the case reduced to its nodes: statics are exact, and so are modes of the free case.
 
     Shapes between fixed nodes are those that the free modes add to the static shapes, and the
@@ -162,7 +162,7 @@ def reduced_case(whole: WholeCase, modes: int) -> gl.ReducedModel:
     stiffness = np.diag(np.append(np.zeros(n), squares))
     stiffness[:n, :n] = k_bb.toarray() + k_ib.T @ statics
     mass = ways.T @ (whole.mass @ ways)
-    return gl.ReducedModel(
+    return gl.train.ReducedModel(
         stiffness=0.5 * (stiffness + stiffness.T),
         mass=0.5 * (mass + mass.T),
         nodes=whole.nodes,

@@ -17,11 +17,11 @@ MESHES = ("stage_1", "stage_2")
 
 def panel_velocities(frequencies: np.ndarray) -> dict[str, np.ndarray]:
     """Return for each mesh the speeds of the panels over its error [1/s], (frequencies, panels)."""
-    train = gl.TrainFile.named("e_axle_case").case().start()
+    train = gl.train.TrainFile.named("e_axle_case").case().start()
     moves = [f"case.{name}.displacement.{way}" for name, way in PANELS.items()]
     turns = 2.0 * np.pi * frequencies[:, None]
     return {
-        mesh: turns * abs(gl.frequency_response(train, mesh, moves, frequencies, 0.01))
+        mesh: turns * abs(gl.train.frequency_response(train, mesh, moves, frequencies, 0.01))
         for mesh in MESHES
     }
 

@@ -12,12 +12,12 @@ def films(temperatures_degc: list[float]) -> list[tuple[float, float]]:
     """Return the central film [m] and the friction coefficient [-] at each temperature."""
     found = []
     for temperature in temperatures_degc:
-        oil = gl.film_oil_of(OWN_OIL, gl.celsius_to_kelvin(temperature))
-        contact = gl.LineProblem(
+        oil = gl.oil.film_oil_of(OWN_OIL, gl.celsius_to_kelvin(temperature))
+        contact = gl.ehl.LineProblem(
             lubricant=oil, radius=0.012, line_load=2e5, reduced_modulus=2.3e11,
             speed_1=4.0, speed_2=5.0,
         )  # fmt: skip
-        film = gl.solve_line(contact, gl.LineSettings(nodes=401))
+        film = gl.ehl.solve_line(contact, gl.ehl.LineSettings(nodes=401))
         found.append((film.central_film, film.friction_coefficient))
     return found
 

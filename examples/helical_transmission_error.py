@@ -6,10 +6,10 @@ import gearlube as gl
 def transmission_error(torque: float, speeds_rpm: list[float]) -> list[float]:
     """Return the peak-to-peak dynamic transmission error [m] at each pinion speed."""
     gear = gl.HelicalGearFile.named("he_2007")  # or HelicalGearFile.from_toml("my_pair.toml")
-    pair = gl.helical_pair_parameters(gear, pinion_torque=torque, mu=0.05)
+    pair = gl.gears.helical_pair_parameters(gear, pinion_torque=torque, mu=0.05)
     found = []
     for speed in speeds_rpm:
-        response = gl.periodic_response(pair, gl.rpm_to_rads(speed))
+        response = gl.gears.periodic_response(pair, gl.rpm_to_rads(speed))
         error = response.signal("psi")  # along the line of action
         found.append(float(error.max() - error.min()))
     return found

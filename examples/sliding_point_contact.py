@@ -3,18 +3,18 @@
 import gearlube as gl
 
 SPEED = 2.0  # mean surface speed, m/s
-OIL = gl.film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6)  # Pa s, 1/Pa, Pa
+OIL = gl.oil.film_oil(eta0=0.04, alpha=2e-8, eyring_stress=5e6)  # Pa s, 1/Pa, Pa
 
 
 def friction(slide_roll_ratios: list[float]) -> list[tuple[float, float]]:
     """Return the smallest film [m] and the friction coefficient [-] at each ratio."""
     found = []
     for ratio in slide_roll_ratios:
-        contact = gl.elliptical_contact(
+        contact = gl.ehl.elliptical_contact(
             R_x=0.01, R_y=0.01, entrainment=(SPEED, 0.0), sliding=(ratio * SPEED, 0.0),
             load=20.0, contact_modulus=1.15e11, lubricant=OIL, nodes=(65, 65),
         )  # fmt: skip
-        film = gl.solve_point_contact(contact)
+        film = gl.ehl.solve_point_contact(contact)
         found.append((film.minimum_film, film.friction_coefficient))
     return found
 

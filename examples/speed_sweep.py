@@ -11,10 +11,10 @@ import gearlube as gl
 
 def sweep(out: Path) -> xr.Dataset:
     """Run three speeds and two preloads, write the report into `out`, return all results."""
-    settings = gl.quick_sweep_settings(gl.SweepSettings())
+    settings = gl.studies.quick_sweep_settings(gl.SweepSettings())
     speeds, preloads = [20.0, 60.0, 100.0], [2500.0, 6000.0]
     results = gl.run_sweep(settings, speeds_kmh=speeds, preloads=preloads, out=out)
-    gl.write_sweep_report(results, out)
+    gl.studies.write_sweep_report(results, out)
     return results
 
 

@@ -1,8 +1,29 @@
-"""Lubricated gear pairs for vehicle co-simulation.
+"""Lubricated gears for vehicle co-simulation.
 
-The file `__init__.pyi` lists the public names, each with the module that defines it. A
-module is imported when one of its names is first used, so `import gearlube` itself is quick.
-docs/api.md describes each name and gives an example.
+Start here::
+
+    import gearlube as gl
+
+    axle = gl.read_axle("my_axle.toml").axle                    # or gl.mohammadpour_2015_axle()
+    losses = gl.run_loss_map(gl.LossMapSettings(axle=axle))     # an xarray.Dataset
+    gl.build_hypoid_axle(...)                                   # its FMU
+
+The most used names are attributes of `gl`. All others are in these modules:
+
+====================  ============================================================
+`gl.gears`            gear and blank files, mesh tables, models of pairs and axles
+`gl.train`            drivetrains of bodies and elements
+`gl.bearing`          rolling bearings
+`gl.oil`              oils
+`gl.film`, `gl.ehl`   film formulas; films solved in full
+`gl.surface`          rough surfaces
+`gl.rating`           rating of gears and bearings
+`gl.studies`          studies: settings, runs, readers of results
+====================  ============================================================
+
+All quantities are in SI units (N, m, rad/s, K, Pa); other units stand in names (`speed_kmh`).
+The stubs `*.pyi` list the names, each with the module that defines it. A module is imported when
+one of its names is first used. docs/api.md describes each name and gives an example.
 
 Examples
 --------
@@ -14,38 +35,16 @@ Examples
 
 from __future__ import annotations
 
-import re
-from importlib import import_module
-from pathlib import Path
 from typing import Any
 
+from gearlube.lazy_names import lazy_names
 
-def _public_names() -> dict[str, tuple[str, str]]:
-    """Return module and name there of every public name, read from `__init__.pyi`."""
-    names = {}
-    module = ""
-    for line in Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8").splitlines():
-        if found := re.match(r"from (\S+) import", line):
-            module = found[1]
-        for there, here in re.findall(r"(\w+) as (\w+)", line):
-            names[here] = (module, there)
-    return names
-
-
-_NAMES = _public_names()
-__all__ = tuple(_NAMES)
+_get, __dir__, __all__ = lazy_names(__name__, __file__)
 
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("gearlube_core").__version__
-    if name not in _NAMES:
-        raise AttributeError(f"gearlube has no public name {name!r}. See docs/api.md.")
-    module, there = _NAMES[name]
-    value = getattr(import_module(module), there)
-    globals()[name] = value
-    return value
+        from gearlube_core import __version__
 
-
-def __dir__() -> list[str]:
-    return sorted(_NAMES)
+        return __version__
+    return _get(name)

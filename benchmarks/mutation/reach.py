@@ -15,7 +15,6 @@ from pathlib import Path
 
 PACKAGES = ("gearlube_core", "drivetrain", "fmu_src", "gearlube")
 _FOLDERS = (*PACKAGES, "tests", "docs", "examples")
-_FACE = "gearlube/__init__.pyi"
 _MODULE = re.compile(r"(?:gearlube_core|drivetrain|fmu_src|gearlube)(?:\.\w+)+")
 _KERNEL = re.compile(r"^\s*@(?:kernel|inlined|summing|compiled)\b", re.MULTILINE)
 _NAMED = 2.0  # steps that a test seems nearer when it names the changed function
@@ -36,7 +35,12 @@ class Reach:
         self._root = root
         paths = [path for folder in _FOLDERS for path in sorted((root / folder).rglob("*.py"))]
         self._texts = {str(path.relative_to(root)): path.read_text("utf-8") for path in paths}
-        self._texts[_FACE] = (root / _FACE).read_text("utf-8")
+        stubs = {
+            str(path.relative_to(root).with_suffix(".py")): path
+            for path in sorted((root / "gearlube").rglob("*.pyi"))
+        }
+        self._faces = set(stubs)  # modules of public names: their stubs say what defines each
+        self._texts |= {file: path.read_text("utf-8") for file, path in stubs.items()}
         self._trees = {file: ast.parse(text) for file, text in self._texts.items()}
         self.imports = {file: self._imports_of(file) for file in self._texts}
         self._words = {
@@ -117,12 +121,12 @@ class Reach:
                     found.add(beside)  # a slave, which the FMU's files name
                 if match := _MODULE.match(node.value):
                     found |= self._defining(*match[0].rpartition(".")[::2])
-            elif isinstance(node, ast.Attribute) and getattr(node.value, "id", "") in (
-                "gl",
-                "gearlube",
-            ):
-                found |= self._defining("gearlube", node.attr)
-        return found - {"", file, "gearlube/__init__.py"}
+            elif isinstance(node, ast.Attribute):
+                owner = ast.unparse(node.value)
+                if owner.partition(".")[0] in ("gl", "gearlube"):
+                    module = ".".join(["gearlube", *owner.split(".")[1:]])
+                    found |= self._defining(module, node.attr)
+        return found - {"", file, *self._faces}
 
     def _file_of(self, module: str) -> str:
         stem = module.replace(".", "/")
@@ -135,8 +139,8 @@ class Reach:
         """Return the file of the module that defines a name, which may be a module itself."""
         if inner := self._file_of(f"{module}.{name}"):
             return {inner}
-        file = _FACE if module == "gearlube" else self._file_of(module)
-        if not file.endswith(("__init__.py", ".pyi")):
+        file = self._file_of(module)
+        if file not in self._faces and not file.endswith("__init__.py"):
             return {file}
         for node in ast.walk(self._trees[file]):
             if isinstance(node, ast.ImportFrom) and node.module:

@@ -10,7 +10,7 @@ from gearlube_core.rough_patch.table import press_patch
 
 def press(height, load, tolerance):
     step = SIDE / len(height)
-    patch = gl.HeightMap(height=height, spacing=(step, step), periodic=(True, True))
+    patch = gl.surface.HeightMap(height=height, spacing=(step, step), periodic=(True, True))
     return press_patch(patch, load, MODULUS, tolerance=tolerance).pressure
 
 

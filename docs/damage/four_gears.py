@@ -30,7 +30,7 @@ from gearlube_core.units import ZERO_CELSIUS, rpm_to_rads
 
 HERE = Path(__file__).parent
 _ROUGH = 0.5e-6  # m, composite rms of both flanks, of the solved films
-_GEAR = gl.RatedGear(
+_GEAR = gl.rating.RatedGear(
     treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8,
     flank_roughness=6.0e-6 * roughness_ra(_ROUGH),
 )  # fmt: skip
@@ -60,12 +60,14 @@ class Beside(NamedTuple):
     film: float  # specific film of ISO/TS 6336-22
 
 
-def hypoid(name: str, gear: gl.HypoidGearFile, mesh: gl.MeshTable | None, load: Load) -> Beside:
+def hypoid(
+    name: str, gear: gl.HypoidGearFile, mesh: gl.gears.MeshTable | None, load: Load
+) -> Beside:
     """Return both for an axle with these gears, in the paper's housing and oil."""
     given = {} if mesh is None else {"mesh": mesh}
     axle = gl.mohammadpour_2015_axle(**given)
-    rating = gl.bevel_rating(
-        gl.BevelMesh.of_blank(gear.blank()), _GEARS, gl.LoadFactors(face=1.65),
+    rating = gl.rating.bevel_rating(
+        gl.rating.BevelMesh.of_blank(gear.blank()), _GEARS, gl.rating.LoadFactors(face=1.65),
         pinion_torque=load.torque, pinion_speed=load.speed, cycles=_CYCLES,
         oil_viscosity=float(axle.oil.state(ZERO_CELSIUS + 40.0).nu),
     )  # fmt: skip
@@ -76,10 +78,14 @@ def hypoid(name: str, gear: gl.HypoidGearFile, mesh: gl.MeshTable | None, load: 
 
 def cylindrical(name: str, file: gl.HelicalGearFile, load: Load) -> Beside:
     """Return both for a helical or spur pair, in the oil of the paper's axle."""
-    bins = gl.duty_bins([1.0], [load.torque], [load.speed], _OIL, widths=(1e-3, 1e-3, 1e-3))
+    bins = gl.rating.duty_bins([1.0], [load.torque], [load.speed], _OIL, widths=(1e-3, 1e-3, 1e-3))
     settings = pair_settings(file, bins)
-    teeth, pair, factors = helical_teeth(settings), file.helical_pair(), gl.LoadFactors(face=1.2)
-    rating = gl.cylindrical_rating(
+    teeth, pair, factors = (
+        helical_teeth(settings),
+        file.helical_pair(),
+        gl.rating.LoadFactors(face=1.2),
+    )
+    rating = gl.rating.cylindrical_rating(
         pair, _GEARS, factors, pinion_torque=load.torque, pinion_speed=load.speed, cycles=_CYCLES,
         oil_viscosity=float(teeth.oil.state(ZERO_CELSIUS + 40.0).nu),
     )  # fmt: skip
@@ -122,10 +128,10 @@ def cells(one: Beside) -> list[str]:
     ]
 
 
-def milled_mesh(gear: gl.HypoidGearFile, folder: Path) -> gl.MeshTable:
+def milled_mesh(gear: gl.HypoidGearFile, folder: Path) -> gl.gears.MeshTable:
     """Return the mesh table of the face-milled pair, from its loaded contact."""
     loads = ContactSettings(cycle=CycleSettings(torques=(50.0, 100.0, 200.0)))
-    return gl.run_contact(gear, loads, folder=folder).mesh_table
+    return gl.studies.run_contact(gear, loads, folder=folder).mesh_table
 
 
 def main() -> None:

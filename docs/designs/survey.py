@@ -158,7 +158,7 @@ def loaded(name: str) -> Row:
     file = gl.HypoidGearFile.from_toml(FILES / f"{name}.toml")
     cycle = CycleSettings(positions=4, torques=(TORQUE,))
     try:
-        contact = analyse_contact(file, gl.ContactSettings(cycle=cycle), jobs=1)
+        contact = analyse_contact(file, gl.studies.ContactSettings(cycle=cycle), jobs=1)
     except GearLubeError as refusal:
         return {"loaded": str(refusal)}
     row: Row = {"loaded": "done"}

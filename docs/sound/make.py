@@ -60,8 +60,8 @@ def main() -> None:
     with TemporaryDirectory() as made:
         folder = Path(made)
         first, second = (run_up(preload, folder) for preload in PRELOADS)
-        settings = gl.SoundSettings(wav_rate=WAV_RATE)
-        sound = gl.run_sound(first, settings, against=second, folder=folder / "sound")
+        settings = gl.studies.SoundSettings(wav_rate=WAV_RATE)
+        sound = gl.studies.run_sound(first, settings, against=second, folder=folder / "sound")
         write(sound, folder / "sound")
 
 

@@ -52,7 +52,8 @@ def cycle_bins(
     Examples
     --------
     >>> import gearlube as gl
-    >>> trace = gl.DriveCycle(name="drive", time=np.arange(60.0), speed=np.full(60, 20.0))  # m/s
+    >>> speed = np.full(60, 20.0)  # m/s
+    >>> trace = gl.studies.DriveCycle(name="drive", time=np.arange(60.0), speed=speed)
     >>> driven = gl.DriveCycleSettings(car=gl.read_axle("mohammadpour_2015"), cycle=trace)
     >>> round(float(cycle_bins(driven, 72e3).time.sum()))  # s, of 72 km
     3600

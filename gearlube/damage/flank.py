@@ -49,7 +49,7 @@ def flank_damage(
     --------
     >>> import gearlube as gl
     >>> axle = gl.read_axle("mohammadpour_2015").axle
-    >>> states = gl.flank_states(axle, torque=100.0, speed=200.0, temperature=353.15)
+    >>> states = gl.gears.flank_states(axle, torque=100.0, speed=200.0, temperature=353.15)
     >>> found = flank_damage(states, axle.solid, 5e-18)
     >>> round(float(found.flash.max()))  # K
     48

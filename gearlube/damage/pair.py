@@ -83,7 +83,7 @@ def pair_settings(file: HelicalGearFile, bins: DutyBins, **given: object) -> Hel
     Examples
     --------
     >>> import gearlube as gl
-    >>> bins = gl.duty_bins([3600.0], [300.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
+    >>> bins = gl.rating.duty_bins([3600.0], [300.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
     >>> pair_settings(HelicalGearFile.named("he_2007"), bins).torques  # N.m
     (30.0, 75.0, 150.0, 225.0, 300.0)
     """
@@ -132,9 +132,10 @@ def helical_teeth(
     Examples
     --------
     >>> import gearlube as gl
-    >>> bins = gl.duty_bins([3600.0], [300.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
+    >>> bins = gl.rating.duty_bins([3600.0], [300.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
     >>> settings = pair_settings(gl.HelicalGearFile.named("he_2007"), bins)
-    >>> damage = gl.DamageSettings(pair=helical_teeth(settings), bins=bins)  # doctest: +SKIP
+    >>> teeth = helical_teeth(settings)  # doctest: +SKIP
+    >>> damage = gl.studies.DamageSettings(pair=teeth, bins=bins)  # doctest: +SKIP
     """
     check_option("edition", edition, EDITIONS)
     if load_stage is not None:

@@ -95,9 +95,9 @@ def run_damage(
     Examples
     --------
     >>> import gearlube as gl
-    >>> bins = gl.duty_bins([3600.0], [100.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
-    >>> settings = gl.DamageSettings(car=gl.read_axle("mohammadpour_2015"), bins=bins)
-    >>> round(float(gl.run_damage(settings)["pressure"][0]), 2)  # GPa
+    >>> bins = gl.rating.duty_bins([3600.0], [100.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
+    >>> settings = gl.studies.DamageSettings(car=gl.read_axle("mohammadpour_2015"), bins=bins)
+    >>> round(float(gl.studies.run_damage(settings)["pressure"][0]), 2)  # GPa
     1.01
     """
     teeth, bins, rate = settings.teeth, settings.bins, settings.rate

@@ -86,7 +86,7 @@ class DamageSettings(Checked):
     Examples
     --------
     >>> import gearlube as gl
-    >>> bins = gl.duty_bins([3600.0], [100.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
+    >>> bins = gl.rating.duty_bins([3600.0], [100.0], [200.0], 353.15, widths=(10.0, 10.0, 10.0))
     >>> DamageSettings(car=gl.read_axle("mohammadpour_2015"), bins=bins).rate is None  # no material
     True
     """

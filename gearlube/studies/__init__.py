@@ -1,1 +1,5 @@
-"""Studies: one folder each, with its settings, run function, datasets, figures and command."""
+"""Studies: settings, runs and readers of results."""
+
+from gearlube.lazy_names import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(__name__, __file__)

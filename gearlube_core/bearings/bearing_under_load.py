@@ -80,11 +80,11 @@ def bearing_under_load(
     Examples
     --------
     >>> import gearlube as gl
-    >>> bearing = gl.BallBearing(
+    >>> bearing = gl.train.BallBearing(
     ...     name="6205", body="shaft", n_balls=9, ball_diameter=7.94e-3, pitch_diameter=38.5e-3,
     ...     inner_groove=0.52, outer_groove=0.53, f0=2.0, f1=3e-4,
     ... )
-    >>> found = gl.bearing_under_load(bearing, [2000.0, 0.0, 0.0, 0.0, 0.0])
+    >>> found = gl.bearing.bearing_under_load(bearing, [2000.0, 0.0, 0.0, 0.0, 0.0])
     >>> shift, stiffness = float(found.displacement[0]), float(found.stiffness[0, 0])
     >>> round(1e6 * shift, 1), round(1e-6 * stiffness)  # um, N/um
     (23.1, 130)

@@ -33,12 +33,12 @@ def element_loads(bearing: HasRings, displacement: Array, *, cage_angle: float =
     Examples
     --------
     >>> import gearlube as gl
-    >>> bearing = gl.BallBearing(
+    >>> bearing = gl.train.BallBearing(
     ...     name="6205", body="shaft", n_balls=9, ball_diameter=7.94e-3, pitch_diameter=38.5e-3,
     ...     inner_groove=0.52, outer_groove=0.53, f0=2.0, f1=3e-4,
     ... )
-    >>> found = gl.bearing_under_load(bearing, [2000.0, 0.0, 0.0, 0.0, 0.0])
-    >>> round(float(gl.element_loads(bearing, found.displacement).max()))  # N
+    >>> found = gl.bearing.bearing_under_load(bearing, [2000.0, 0.0, 0.0, 0.0, 0.0])
+    >>> round(float(gl.bearing.element_loads(bearing, found.displacement).max()))  # N
     974
     """
     rings, gaps = bearing.rings()

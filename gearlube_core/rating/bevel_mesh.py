@@ -42,7 +42,7 @@ class BevelMesh(Checked):
     Examples
     --------
     >>> import gearlube as gl
-    >>> mesh = gl.BevelMesh.of_blank(gl.HypoidGearFile.named("mohammadpour_2015").blank())
+    >>> mesh = gl.rating.BevelMesh.of_blank(gl.HypoidGearFile.named("mohammadpour_2015").blank())
     >>> round(mesh.virtual.contact_ratio, 2), round(mesh.addendum_shift, 2)
     (1.13, 0.49)
     """

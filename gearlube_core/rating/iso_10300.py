@@ -31,11 +31,13 @@ def bevel_rating(
     Z_Hyp is quoted from memory; it meets two printed values.
 
     >>> import gearlube as gl
-    >>> mesh = gl.BevelMesh.of_blank(gl.HypoidGearFile.named("mohammadpour_2015").blank())
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.8e8)
-    >>> rating = gl.bevel_rating(
-    ...     mesh, (gear, gear), gl.LoadFactors(face=1.65), pinion_torque=200.0, pinion_speed=125.7,
-    ...     cycles=(5e7, 2e7), oil_viscosity=150e-6,
+    >>> mesh = gl.rating.BevelMesh.of_blank(gl.HypoidGearFile.named("mohammadpour_2015").blank())
+    >>> gear = gl.rating.RatedGear(
+    ...     treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.8e8
+    ... )
+    >>> rating = gl.rating.bevel_rating(
+    ...     mesh, (gear, gear), gl.rating.LoadFactors(face=1.65),
+    ...     pinion_torque=200.0, pinion_speed=125.7, cycles=(5e7, 2e7), oil_viscosity=150e-6,
     ... )
     >>> round(rating.contact_safety[0], 1), rating.standard
     (1.5, 'ISO 10300-1, -2, -3:2023, method B1')

@@ -54,10 +54,12 @@ def cylindrical_rating(
     --------
     >>> import gearlube as gl
     >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    >>> rating = gl.cylindrical_rating(
-    ...     pair, (gear, gear), gl.LoadFactors(face=1.1), pinion_torque=300.0, pinion_speed=200.0,
-    ...     cycles=(5e7, 5e7), oil_viscosity=100e-6,
+    >>> gear = gl.rating.RatedGear(
+    ...     treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8
+    ... )
+    >>> rating = gl.rating.cylindrical_rating(
+    ...     pair, (gear, gear), gl.rating.LoadFactors(face=1.1),
+    ...     pinion_torque=300.0, pinion_speed=200.0, cycles=(5e7, 5e7), oil_viscosity=100e-6,
     ... )
     >>> round(rating.contact_safety[0], 2), rating.standard
     (1.4, 'ISO 6336-1, -2, -3:2006, method B')

@@ -143,16 +143,16 @@ def spectrum_damage(
     Examples
     --------
     >>> import gearlube as gl
-    >>> load = gl.FlankLoad.example()
+    >>> load = gl.rating.FlankLoad.example()
     >>> def rate(torque, speed, temperature):
-    ...     return gl.cylindrical_rating(
-    ...         load.pair, load.gears, gl.LoadFactors(face=1.2), pinion_torque=abs(torque),
+    ...     return gl.rating.cylindrical_rating(
+    ...         load.pair, load.gears, gl.rating.LoadFactors(face=1.2), pinion_torque=abs(torque),
     ...         pinion_speed=speed, cycles=(1.0, 1.0), oil_viscosity=100e-6,
     ...     )
-    >>> bins = gl.duty_bins(
+    >>> bins = gl.rating.duty_bins(
     ...     np.ones(2), np.array([900.0, -90.0]), np.full(2, 200.0), 350.0, widths=(50.0, 9.0, 9.0)
     ... )
-    >>> damage = gl.spectrum_damage(bins, rate, ratio=load.pair.ratio, repeats=1e5)
+    >>> damage = gl.rating.spectrum_damage(bins, rate, ratio=load.pair.ratio, repeats=1e5)
     >>> round(damage.sums()["pitting, drive"][0], 3)
     0.335
     """

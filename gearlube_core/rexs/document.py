@@ -63,11 +63,13 @@ class RatedLoad(NamedTuple):
     Examples
     --------
     >>> import gearlube as gl
-    >>> gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    >>> gear = gl.rating.RatedGear(
+    ...     treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8
+    ... )
     >>> pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    >>> rating = gl.cylindrical_rating(
-    ...     pair, (gear, gear), gl.LoadFactors(face=1.1), pinion_torque=300.0, pinion_speed=200.0,
-    ...     cycles=(5e7, 5e7), oil_viscosity=100e-6,
+    >>> rating = gl.rating.cylindrical_rating(
+    ...     pair, (gear, gear), gl.rating.LoadFactors(face=1.1),
+    ...     pinion_torque=300.0, pinion_speed=200.0, cycles=(5e7, 5e7), oil_viscosity=100e-6,
     ... )
     >>> load = RatedLoad(rating, pinion_torque=300.0, pinion_speed=200.0)
     >>> round(load.rating.contact_safety[0], 2)

@@ -23,7 +23,7 @@ ROAD = CAR.driveline.road_load
 RADIUS, RATIO = ROAD.tyre.rolling_radius, ROAD.final_drive.ratio
 MASS = ROAD.vehicle.mass + 4.0 * CAR.driveline.wheel_inertia / RADIUS**2
 WARM = gl.celsius_to_kelvin(130.0)  # few temperatures to map
-STILL = gl.SumpHeat(capacity=1e8)  # its temperature does not change
+STILL = gl.studies.SumpHeat(capacity=1e8)  # its temperature does not change
 
 
 def settings(cycle, **changed):
@@ -32,7 +32,9 @@ def settings(cycle, **changed):
 
 
 def cruise(speed, seconds=50):
-    return gl.DriveCycle(name="cruise", time=np.arange(seconds + 1.0), speed=np.full(51, speed))
+    return gl.studies.DriveCycle(
+        name="cruise", time=np.arange(seconds + 1.0), speed=np.full(51, speed)
+    )
 
 
 def direct(torque, speed, temperature):
@@ -71,7 +73,7 @@ def test_a_cruise_loses_its_power_times_its_time(kmh):
 def two_speeds(fast, slow):
     """Return a cruise at `fast`, gentle braking, and a cruise at `slow` [m/s]."""
     speed = np.concatenate([np.full(11, fast), np.arange(fast - 1.0, slow, -1.0), [slow] * 10])
-    return gl.DriveCycle(name="two", time=np.arange(float(speed.size)), speed=speed)
+    return gl.studies.DriveCycle(name="two", time=np.arange(float(speed.size)), speed=speed)
 
 
 # 0.2 %: the map is linear between speeds, which are 1.36 times apart; measured below 0.05 %
@@ -90,7 +92,7 @@ def test_a_slow_part_of_a_fast_trace_loses_what_the_axle_loses_at_its_own_speed(
 
 def test_the_steps_of_an_uneven_trace_are_named_by_their_middles():
     time = np.array([0.0, 1.0, 1.5, 3.5, 4.0])
-    cycle = gl.DriveCycle(name="uneven", time=time, speed=np.full(5, 10.0))
+    cycle = gl.studies.DriveCycle(name="uneven", time=time, speed=np.full(5, 10.0))
     found = gl.run_cycle(settings(cycle))
     assert found["step"].values.tolist() == [0.5, 1.25, 2.5, 3.75]
     assert found["duration"].values.tolist() == [1.0, 0.5, 2.0, 0.5]
@@ -99,10 +101,12 @@ def test_the_steps_of_an_uneven_trace_are_named_by_their_middles():
 
 def test_the_band_of_assumed_heat_ends_at_the_ends_of_capacity_and_conductance():
     """At rest the oil cools by an exponential: 15 to 20 kJ/K, 4.5 to 10 W/K (docs/drive_cycle)."""
-    cycle = gl.DriveCycle(name="idle", time=np.arange(601.0), speed=np.zeros(601))
+    cycle = gl.studies.DriveCycle(name="idle", time=np.arange(601.0), speed=np.zeros(601))
     start, air = gl.celsius_to_kelvin(80.0), gl.celsius_to_kelvin(20.0)
-    both = settings(cycle, heat=gl.SumpHeat(), start_temperature=start, air_temperature=air)
-    given = replace(both, heat=gl.SumpHeat(conductance_at_rest=6.0, conductance_at_100_kmh=20.0))
+    both = settings(cycle, heat=gl.studies.SumpHeat(), start_temperature=start, air_temperature=air)
+    given = replace(
+        both, heat=gl.studies.SumpHeat(conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
+    )
     for one, slowest, fastest in (
         (both, 4.5 / 20e3, 10.0 / 15e3),
         (given, 6.0 / 20e3, 6.0 / 15e3),
@@ -140,7 +144,7 @@ def test_the_share_outside_a_range_is_that_of_the_steps_beyond_it():
 
 
 def test_standing_still_leaves_no_range():
-    cycle = gl.DriveCycle(name="idle", time=np.arange(3.0), speed=np.zeros(3))
+    cycle = gl.studies.DriveCycle(name="idle", time=np.arange(3.0), speed=np.zeros(3))
     found = gl.run_cycle(settings(cycle))
     assert found.attrs["ranges_left"] == ""
     assert not found["time_outside_range"].values.any()
@@ -149,7 +153,7 @@ def test_standing_still_leaves_no_range():
 
 @pytest.fixture(scope="module")
 def nedc():
-    return gl.run_cycle(settings(gl.DriveCycle.named("nedc")))
+    return gl.run_cycle(settings(gl.studies.DriveCycle.named("nedc")))
 
 
 def test_pinion_less_wheels_is_what_the_axle_loses(nedc):
@@ -163,7 +167,7 @@ def test_pinion_less_wheels_is_what_the_axle_loses(nedc):
 
 def test_wheels_and_brakes_do_the_work_of_the_road(nedc):
     """From rest to rest inertia does no work: what is left is the resistance over the way."""
-    cycle = gl.DriveCycle.named("nedc")
+    cycle = gl.studies.DriveCycle.named("nedc")
     turning = nedc["pinion_speed"] * np.pi / 30.0 / RATIO
     work = float((nedc["wheel_torque"] * turning * nedc["duration"]).sum())
     work -= 1e3 * float(nedc["energy_brakes"])
@@ -184,7 +188,7 @@ def test_wheels_and_brakes_do_the_work_of_the_road(nedc):
 def test_brakes_take_what_is_beyond_coast_torque(share):
     deceleration = 2.0  # m/s2
     time = np.arange(11.0)
-    cycle = gl.DriveCycle(name="stop", time=time, speed=20.0 - deceleration * time)
+    cycle = gl.studies.DriveCycle(name="stop", time=time, speed=20.0 - deceleration * time)
     asked = demand_of(settings(cycle, regeneration=share, coast_torque=25.0))
     speed = 20.0 - deceleration * 4.5  # in the middle of the fifth second
     force = ROAD.resistance(speed) - MASS * deceleration
@@ -198,7 +202,7 @@ def test_brakes_take_what_is_beyond_coast_torque(share):
 
 def test_gentle_braking_needs_no_friction_brakes():
     time = np.arange(11.0)
-    cycle = gl.DriveCycle(name="roll", time=time, speed=20.0 - 0.3 * time)
+    cycle = gl.studies.DriveCycle(name="roll", time=time, speed=20.0 - 0.3 * time)
     asked = demand_of(settings(cycle))
     assert np.all(asked.brakes == 0.0)
     speed = 20.0 - 0.3 * 0.5
@@ -218,7 +222,7 @@ def test_resistance_on_a_slope_is_that_of_the_road_load(grade):
 
 def test_a_measured_torque_is_the_pinions():
     time = np.arange(21.0)
-    cycle = gl.DriveCycle(
+    cycle = gl.studies.DriveCycle(
         name="rig", time=time, pinion_speed=np.full(21, 200.0), pinion_torque=np.full(21, -60.0)
     )
     found = gl.run_cycle(settings(cycle))
@@ -230,8 +234,8 @@ def test_a_measured_torque_is_the_pinions():
 
 
 def test_standing_still_loses_nothing_and_cools():
-    cycle = gl.DriveCycle(name="idle", time=np.arange(301.0), speed=np.zeros(301))
-    heat = gl.SumpHeat(capacity=2e4, conductance_at_rest=8.0)
+    cycle = gl.studies.DriveCycle(name="idle", time=np.arange(301.0), speed=np.zeros(301))
+    heat = gl.studies.SumpHeat(capacity=2e4, conductance_at_rest=8.0)
     start, air = gl.celsius_to_kelvin(80.0), gl.celsius_to_kelvin(20.0)
     found = gl.run_cycle(settings(cycle, heat=heat, start_temperature=start, air_temperature=air))
     assert float(found["energy_lost"].sum()) == 0.0
@@ -249,7 +253,7 @@ def steps_of(power, nodes, **changed):
         "start": 280.0,
         "air": 290.0,
     }
-    heat = gl.SumpHeat(capacity=12e3, conductance_at_rest=9.0)
+    heat = gl.studies.SumpHeat(capacity=12e3, conductance_at_rest=9.0)
     return heat, warm(heat, **(usual | changed))
 
 
@@ -299,12 +303,14 @@ def test_the_loss_between_temperatures_of_the_map_is_found():
 def test_steady_temperature_is_where_a_long_cruise_comes_to_rest():
     """Capacity of a tenth: 25 time constants in 3000 s."""
     speed = 25.0
-    heat = gl.SumpHeat(capacity=2e3)
+    heat = gl.studies.SumpHeat(capacity=2e3)
     air = gl.celsius_to_kelvin(40.0)
-    cycle = gl.DriveCycle(name="long", time=5.0 * np.arange(601.0), speed=np.full(601, speed))
+    cycle = gl.studies.DriveCycle(
+        name="long", time=5.0 * np.arange(601.0), speed=np.full(601, speed)
+    )
     found = gl.run_cycle(settings(cycle, heat=heat, start_temperature=air, air_temperature=air))
     torque = float(found["pinion_torque"][-1])
-    steady = gl.steady_temperature(
+    steady = gl.studies.steady_temperature(
         CAR, torque=torque, speed=speed / RADIUS * RATIO, air_temperature=air, heat=heat
     )
     lost = at(torque, speed / RADIUS * RATIO, steady).sum()
@@ -315,19 +321,19 @@ def test_steady_temperature_is_where_a_long_cruise_comes_to_rest():
 
 
 def test_no_steady_temperature_is_said_with_its_surplus():
-    heat = gl.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=0.5)
+    heat = gl.studies.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=0.5)
     with pytest.raises(ParameterError, match=r"below 423\.15 K.*W more lost.*larger conductance"):
-        gl.steady_temperature(CAR, torque=300.0, speed=300.0, heat=heat)
+        gl.studies.steady_temperature(CAR, torque=300.0, speed=300.0, heat=heat)
 
 
 def test_oil_beyond_its_data_is_refused_with_the_time():
-    heat = gl.SumpHeat(capacity=100.0, conductance_at_rest=1.0, conductance_at_100_kmh=1.0)
+    heat = gl.studies.SumpHeat(capacity=100.0, conductance_at_rest=1.0, conductance_at_100_kmh=1.0)
     with pytest.raises(ParameterError, match=r"at most 423\.15 K.* s on, up to"):
         gl.run_cycle(settings(cruise(30.0), heat=heat))
 
 
 def test_energy_hardly_changes_with_a_finer_map(nedc):
-    assert abs(grid_change(settings(gl.DriveCycle.named("nedc")), nedc)) < 0.01
+    assert abs(grid_change(settings(gl.studies.DriveCycle.named("nedc")), nedc)) < 0.01
 
 
 CHURNING = replace(
@@ -347,7 +353,7 @@ def test_the_regime_of_churning_is_that_of_speed_and_oil():
     nu = oil.dynamic_viscosity(WARM) / oil.density
     gear = np.sqrt(6000.0 * 9000.0) * nu / (0.5 * ring.ring_diameter * ring.ring_width)
     speed = gear * RADIUS * np.array([0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.0])
-    cycle = gl.DriveCycle(name="half", time=np.arange(7.0), speed=speed)
+    cycle = gl.studies.DriveCycle(name="half", time=np.arange(7.0), speed=speed)
     found = gl.run_cycle(replace(settings(cycle), car=CHURNING))
     assert found["churning_regime"].values[[0, 1, -1]] == pytest.approx([0.0, 0.0, 0.5], abs=1e-6)
     assert "churning_regime" not in gl.run_cycle(settings(cycle))
@@ -362,7 +368,7 @@ def test_energy_from_a_cold_start_hardly_changes_with_a_finer_map(car, degc):
     cold = gl.celsius_to_kelvin(degc)
     one = gl.DriveCycleSettings(
         car=car,
-        cycle=gl.DriveCycle.named("nedc"),
+        cycle=gl.studies.DriveCycle.named("nedc"),
         start_temperature=cold,
         air_temperature=cold,
         draws=0,

@@ -37,11 +37,11 @@ FELT = VEHICLE.mass + 4.0 * CAR.wheel_inertia / RADIUS**2
 DISTANCE = TOP * (RAMP + HOLD)
 
 
-def trapezium() -> gl.DriveCycle:
+def trapezium() -> gl.studies.DriveCycle:
     """Return a cycle of rest, ramp up, constant speed, ramp down, rest."""
     corners = np.cumsum([0, REST, RAMP, HOLD, RAMP, REST])
     time = np.arange(corners[-1] + 1.0)
-    return gl.DriveCycle(
+    return gl.studies.DriveCycle(
         name="trapezium", time=time, speed=np.interp(time, corners, [0, 0, TOP, TOP, 0, 0])
     )
 
@@ -158,8 +158,10 @@ def test_losses_that_are_linear_in_torque_on_either_side_are_met_at_all_steps(dr
     made["loss"].loc[{"source": "seal.seals"}] = plan.speeds[:, None] * (
         SEAL + 0.01 * np.abs(plan.torques)
     )
-    coast = gl.DriveCycle(  # slower and slower by air and rolling, and less and less than them
-        name="coast", time=np.arange(21.0), speed=TOP - 0.01 * np.arange(21.0) ** 2
+    coast = (
+        gl.studies.DriveCycle(  # slower and slower by air and rolling, and less and less than them
+            name="coast", time=np.arange(21.0), speed=TOP - 0.01 * np.arange(21.0) ** 2
+        )
     )
     gentle = plan_cycle(two_gears(), coast)
     plan = plan._replace(cycle=coast, demand=gentle.demand)
@@ -192,7 +194,9 @@ def test_the_hypoid_axle_as_a_list_loses_what_its_own_study_says():
     """Another code: one mesh period without dynamics, at every temperature of a map."""
     corners = [0.0, 8.0, 14.0, 26.0, 34.0]
     time = np.arange(35.0)
-    trace = gl.DriveCycle(name="t", time=time, speed=np.interp(time, corners, [0, 10, 10, 25, 8]))
+    trace = gl.studies.DriveCycle(
+        name="t", time=time, speed=np.interp(time, corners, [0, 10, 10, 25, 8])
+    )
     warm = gl.celsius_to_kelvin(90.0)  # as in the train file
     settings = gl.DriveCycleSettings(
         car=gl.read_axle("mohammadpour_2015"),
@@ -200,8 +204,8 @@ def test_the_hypoid_axle_as_a_list_loses_what_its_own_study_says():
         regeneration=1.0,
         start_temperature=warm,
         air_temperature=warm,
-        heat=gl.SumpHeat(capacity=1e8),
-        grid=gl.LossGrid(torques=48, temperature_step=50.0),
+        heat=gl.studies.SumpHeat(capacity=1e8),
+        grid=gl.studies.LossGrid(torques=48, temperature_step=50.0),
         draws=0,
     )
     axle = gl.run_cycle(settings)
@@ -222,7 +226,7 @@ def test_the_hypoid_axle_as_a_list_loses_what_its_own_study_says():
 def test_a_train_without_a_vehicle_and_a_car_that_stands_or_crawls_are_refused():
     with pytest.raises(ParameterError, match=r"needs a vehicle, got none in two gears\. Give"):
         plan_cycle(case(), trapezium())
-    still = gl.DriveCycle(name="still", time=np.arange(5.0), speed=np.zeros(5))
+    still = gl.studies.DriveCycle(name="still", time=np.arange(5.0), speed=np.zeros(5))
     with pytest.raises(ParameterError, match="must move in still"):
         plan_cycle(two_gears(), still)
     rest = replace(
@@ -235,7 +239,7 @@ def test_a_train_without_a_vehicle_and_a_car_that_stands_or_crawls_are_refused()
     # the map begins at 1/100 of the highest speed, and may at 1/1000 of the 200 rad/s of the start
     least = 0.1 * 200.0 / RATIO * RADIUS  # m/s
     crawl = [
-        gl.DriveCycle(name="crawl", time=np.arange(5.0), speed=np.full(5, share * least))
+        gl.studies.DriveCycle(name="crawl", time=np.arange(5.0), speed=np.full(5, share * least))
         for share in (0.5, 1.01)
     ]
     said = rf"crawl must be at least {3.6 * least:.3g} km/h for two gears, got {1.8 * least:.3g} k"

@@ -18,7 +18,9 @@ COVERED = 0.99  # of the loss: what is asked of the models
 
 def test_a_cold_start_of_the_wltc_is_covered():
     car = replace(CAR, axle=AXLE)
-    found = gl.run_cycle(gl.DriveCycleSettings(car=car, cycle=gl.DriveCycle.named("wltc"), draws=0))
+    found = gl.run_cycle(
+        gl.DriveCycleSettings(car=car, cycle=gl.studies.DriveCycle.named("wltc"), draws=0)
+    )
     loss = found["loss"].values.clip(0.0)
     sources = list(found["source"].values)
     for outside, names in (

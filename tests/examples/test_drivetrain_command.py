@@ -276,24 +276,26 @@ def test_planets_that_touch_each_other_are_named() -> None:
 
 
 def test_nodes_of_a_housing_are_where_its_bearings_are() -> None:
-    tube = gl.ShaftSection(start=0.0, end=0.1, outer_diameter=0.03)
-    shafts = [gl.Shaft(name=one, sections=[tube], nodes={"gear": 0.02, "end": 0.1}) for one in "ab"]
+    tube = gl.train.ShaftSection(start=0.0, end=0.1, outer_diameter=0.03)
+    shafts = [
+        gl.train.Shaft(name=one, sections=[tube], nodes={"gear": 0.02, "end": 0.1}) for one in "ab"
+    ]
     places = {"seat": (0.2, 0.1, 0.3), "foot": (0.2, 0.0, 0.35)}  # m, in its own axes
-    model = gl.ReducedModel(
+    model = gl.train.ReducedModel(
         stiffness=1e8 * np.eye(6),
         mass=np.eye(6),
-        nodes=tuple(gl.InterfaceNode(name, *at) for name, at in places.items()),
+        nodes=tuple(gl.train.InterfaceNode(name, *at) for name, at in places.items()),
         owner=np.repeat([0, 1], 3),
         direction=np.tile(np.arange(3), 2),
     )
     teeth = {"teeth_1": 20, "teeth_2": 30, "normal_module": 4e-3, "face_width": 0.02}
     parts = [
-        gl.GearMesh(name="mesh", first="a.gear", second="b.gear", backlash=1e-4, **teeth),
-        gl.Joint(name="bearing", first="b.end", second="case.seat", K_xx=1e8, K_yy=1e8),
-        gl.SpringSupport(name="springs", body="a", K_xx=1e8, K_yy=1e8),
-        gl.Port(name="load", body="b"),
+        gl.train.GearMesh(name="mesh", first="a.gear", second="b.gear", backlash=1e-4, **teeth),
+        gl.train.Joint(name="bearing", first="b.end", second="case.seat", K_xx=1e8, K_yy=1e8),
+        gl.train.SpringSupport(name="springs", body="a", K_xx=1e8, K_yy=1e8),
+        gl.train.Port(name="load", body="b"),
     ]
-    case = gl.Housing(name="case", model=model, free=False)
+    case = gl.train.Housing(name="case", model=model, free=False)
     train = gl.Train([*shafts, case], parts, gl.Lubricant.named("mohammadpour_2015"))
     found = layout(train).housing
     assert found["case.seat"] == (pytest.approx(0.1), pytest.approx(0.1))  # m z/2 along x; end

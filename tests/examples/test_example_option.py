@@ -33,7 +33,7 @@ def printed(*words):
 def test_measured_gears_are_written_with_their_tables_and_nothing_is_replaced(tmp_path, caplog):
     words = ["measured", "--example", str(tmp_path / "mine")]
     assert CliRunner().invoke(app, words).exit_code == 0
-    file = gl.MeasuredFile.from_toml(tmp_path / "mine" / "axle_17.toml")
+    file = gl.gears.MeasuredFile.from_toml(tmp_path / "mine" / "axle_17.toml")
     tables = {Path(one).name for one in (file.deviations, file.pitch, file.waviness)}
     assert {one.name for one in (tmp_path / "mine").iterdir()} == {"axle_17.toml", *tables}
     (tmp_path / "mine" / "axle_17.toml").write_text("mine", encoding="utf-8")
@@ -47,7 +47,7 @@ def test_a_rexs_file_holds_the_pair_of_he_2007(tmp_path):
     pair, given = (
         one.helical_pair()
         for one in (
-            gl.read_rexs(tmp_path / "pair.rexs").file,
+            gl.gears.read_rexs(tmp_path / "pair.rexs").file,
             gl.HelicalGearFile.named("he_2007"),
         )
     )
@@ -59,7 +59,7 @@ def test_the_kept_rexs_file_is_what_the_package_writes_today(tmp_path):
     def dateless(text):
         return re.sub(r'(date|applicationVersion)="[^"]*"', "", text)
 
-    gl.write_rexs(gl.HelicalGearFile.named("he_2007"), tmp_path / "he.rexs")
+    gl.gears.write_rexs(gl.HelicalGearFile.named("he_2007"), tmp_path / "he.rexs")
     written = (tmp_path / "he.rexs").read_text(encoding="utf-8-sig")
     assert dateless(printed("convert")) == dateless(written)
 
@@ -79,7 +79,7 @@ def test_a_transfer_path_is_the_generic_one_also_between_its_lines(tmp_path):
 @pytest.mark.parametrize("command", ["read", "extrude"])
 def test_a_profile_has_the_stated_roughness(command, tmp_path):
     (tmp_path / "profile.csv").write_text(printed("roughness", command), encoding="utf-8")
-    profile = gl.read_surface(tmp_path / "profile.csv")
+    profile = gl.surface.read_surface(tmp_path / "profile.csv")
     # as stated by the option; micrometres are written with nine digits
     assert profile_statistics(profile).Ra == pytest.approx(0.3e-6, rel=1e-3)
     words = ["roughness", command, str(tmp_path / "profile.csv"), "--out", str(tmp_path / "out")]

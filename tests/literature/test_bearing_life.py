@@ -178,19 +178,19 @@ def test_the_standing_ring_has_the_higher_exponent():
 
 
 def test_loads_of_elements_bear_the_load_of_the_bearing():
-    balls = gl.BallBearing(
+    balls = gl.train.BallBearing(
         name="6205", body="shaft", n_balls=9, ball_diameter=7.94e-3, pitch_diameter=38.5e-3,
         inner_groove=0.52, outer_groove=0.53, f0=2.0, f1=3e-4,
     )  # fmt: skip
-    found = gl.bearing_under_load(balls, [1500.0, 800.0, 400.0, 2.0, -1.0], cage_angle=0.3)
-    loads = gl.element_loads(balls, found.displacement, cage_angle=0.3)
+    found = gl.bearing.bearing_under_load(balls, [1500.0, 800.0, 400.0, 2.0, -1.0], cage_angle=0.3)
+    loads = gl.bearing.element_loads(balls, found.displacement, cage_angle=0.3)
     assert loads.max() == pytest.approx(found.loads.largest, rel=1e-9)
-    rollers = gl.CylindricalBearing(
+    rollers = gl.train.CylindricalBearing(
         name="right", body="shaft", n_rollers=13, roller_diameter=9e-3, roller_length=9e-3,
         pitch_diameter=47e-3, clearance=2e-5, f0=2.0, f1=3e-4, laminae=31,
     )  # fmt: skip
-    found = gl.bearing_under_load(rollers, [5000.0, 1000.0, 0.0, 5.0, 3.0], cage_angle=0.2)
-    loads = gl.element_loads(rollers, found.displacement, cage_angle=0.2)
+    found = gl.bearing.bearing_under_load(rollers, [5000.0, 1000.0, 0.0, 5.0, 3.0], cage_angle=0.2)
+    loads = gl.bearing.element_loads(rollers, found.displacement, cage_angle=0.2)
     angle = 0.2 + 2.0 * np.pi * np.arange(13) / 13
     assert loads.shape == (13, 31)
     assert (loads.sum(axis=1) * np.cos(angle)).sum() == pytest.approx(5000.0, rel=1e-6)
@@ -210,12 +210,12 @@ def test_the_classes_of_cleanliness_are_in_order():
 
 def test_loads_of_tapered_rollers_bear_both_loads_and_a_loose_row_is_refused():
     geometry = BearingFile.named("wingertszahn_2023").geometry()
-    loads = gl.tapered_loads(geometry, axial_load=6000.0, radial_load=5000.0)
+    loads = gl.bearing.tapered_loads(geometry, axial_load=6000.0, radial_load=5000.0)
     angle, a = 2.0 * np.pi * np.arange(loads.size) / loads.size, geometry.outer_angle
     assert loads.sum() * math.sin(a) == pytest.approx(6000.0, rel=1e-6)
     assert (loads * np.cos(angle)).sum() * math.cos(a) == pytest.approx(5000.0, rel=1e-6)
     with pytest.raises(ParameterError, match="axial_load must hold the rollers"):
-        gl.tapered_loads(geometry, axial_load=100.0, radial_load=5000.0)
+        gl.bearing.tapered_loads(geometry, axial_load=100.0, radial_load=5000.0)
 
 
 def test_a_groove_that_is_none_is_refused():

@@ -47,7 +47,7 @@ def test_coupled_frequencies_of_geared_rotors_are_those_of_ross(work, files):
 
 def test_rotor_of_ross_whirls_at_the_frequencies_of_its_whole_matrices():
     given, speed = matrices(), 200.0  # rad/s
-    beam = gl.rotor_beam(**given)
+    beam = gl.train.rotor_beam(**given)
     n = 6 * given["places"].size
     inverse = np.linalg.inv(given["mass"])
     state = np.block(
@@ -131,15 +131,15 @@ def test_matrices_that_are_no_free_rotor_are_refused(change, words):
     else:
         given |= change
     with pytest.raises(ParameterError, match=words):
-        gl.rotor_beam(**given)
+        gl.train.rotor_beam(**given)
 
 
 def test_nodes_of_a_rotor_stand_at_its_places_and_it_has_no_sections():
-    rotor = gl.read_rotor(FILES[0])
-    whole = gl.Shaft(name="rotor", rotor=rotor, nodes={"gear": 5.8})
+    rotor = gl.train.read_rotor(FILES[0])
+    whole = gl.train.Shaft(name="rotor", rotor=rotor, nodes={"gear": 5.8})
     with pytest.raises(ParameterError, match="nearest one is 5800 mm"):
         replace(whole, nodes={"gear": 5.7})
-    section = gl.ShaftSection(start=0.0, end=5.8, outer_diameter=0.3)
+    section = gl.train.ShaftSection(start=0.0, end=5.8, outer_diameter=0.3)
     with pytest.raises(ParameterError, match="none and no discs beside a rotor"):
         replace(whole, sections=(section,))
 
@@ -147,4 +147,4 @@ def test_nodes_of_a_rotor_stand_at_its_places_and_it_has_no_sections():
 def test_rotor_file_without_mass_is_refused(tmp_path: Path):
     np.savez(tmp_path / "rotor.npz", places=[0.0, 1.0], stiffness=np.eye(12))
     with pytest.raises(ParameterError, match="got none of mass"):
-        gl.read_rotor(tmp_path / "rotor.npz")
+        gl.train.read_rotor(tmp_path / "rotor.npz")

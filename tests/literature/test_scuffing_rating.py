@@ -42,7 +42,7 @@ def blok_unit() -> float:
 )
 def test_flash_temperature_is_that_of_blok(shape, factor, place):
     x, heat = band(shape)
-    found = gl.contact_temperature(x, heat, SPEEDS, (350.0, 350.0))
+    found = gl.rating.contact_temperature(x, heat, SPEEDS, (350.0, 350.0))
     assert found.bulk == 350.0
     assert found.flash == pytest.approx(factor * blok_unit(), rel=1e-3)  # three digits
     assert x[found.temperature.argmax()] / A == pytest.approx(place, abs=0.02)
@@ -50,10 +50,10 @@ def test_flash_temperature_is_that_of_blok(shape, factor, place):
 
 def test_heat_flows_from_the_warmer_body_and_both_surfaces_meet():
     x, heat = band("hertz")
-    found = gl.contact_temperature(x, 0.0 * heat, SPEEDS, (400.0, 340.0))
+    found = gl.rating.contact_temperature(x, 0.0 * heat, SPEEDS, (400.0, 340.0))
     assert found.temperature == pytest.approx(np.full(x.size, 380.0))  # 2:1 by root of the speeds
-    turned = gl.contact_temperature(-x[::-1], heat[::-1], (-4.0, -1.0), (350.0, 350.0))
-    plain = gl.contact_temperature(x, heat, SPEEDS, (350.0, 350.0))
+    turned = gl.rating.contact_temperature(-x[::-1], heat[::-1], (-4.0, -1.0), (350.0, 350.0))
+    plain = gl.rating.contact_temperature(x, heat, SPEEDS, (350.0, 350.0))
     assert turned.temperature == pytest.approx(plain.temperature[::-1])
 
 
@@ -62,9 +62,9 @@ def test_many_contacts_are_as_one_by_one():
     widths, u1 = np.array([1.0, 2.0, 0.5]), np.array([4.0, 2.0, 9.0])
     warm = np.array([350.0, 360.0, 340.0])
     heats = heat[:, None] * np.array([1.0, 3.0, 0.5])
-    many = gl.contact_temperature(x, heats, (u1, 1.5), (warm, 345.0), half_width=widths)
+    many = gl.rating.contact_temperature(x, heats, (u1, 1.5), (warm, 345.0), half_width=widths)
     assert many.temperature.shape == (x.size, 3)
-    one = gl.contact_temperature(2.0 * x, 3.0 * heat, (2.0, 1.5), (360.0, 345.0))
+    one = gl.rating.contact_temperature(2.0 * x, 3.0 * heat, (2.0, 1.5), (360.0, 345.0))
     assert many.temperature[:, 1] == pytest.approx(one.temperature)
     assert many.flash[1] == pytest.approx(float(one.flash))
     assert many.peclet[1] == pytest.approx(float(one.peclet))
@@ -72,34 +72,34 @@ def test_many_contacts_are_as_one_by_one():
 
 def test_a_slow_contact_is_said_and_opposite_speeds_are_refused():
     x, heat = band("hertz")
-    slow = gl.contact_temperature(x, heat, (0.1, 0.2), (350.0, 350.0))
+    slow = gl.rating.contact_temperature(x, heat, (0.1, 0.2), (350.0, 350.0))
     assert "Peclet number above 5" in slow.outside[0]
-    assert gl.contact_temperature(x, heat, SPEEDS, (350.0, 350.0)).outside == ()
+    assert gl.rating.contact_temperature(x, heat, SPEEDS, (350.0, 350.0)).outside == ()
     with pytest.raises(ParameterError, match=r"one sign and not be 0, got 1\.0 and -1\.0 m/s"):
-        gl.contact_temperature(x, heat, (1.0, -1.0), (350.0, 350.0))
+        gl.rating.contact_temperature(x, heat, (1.0, -1.0), (350.0, 350.0))
     with pytest.raises(ParameterError, match="one more place than heat"):
-        gl.contact_temperature(x, heat[1:], SPEEDS, (350.0, 350.0))
+        gl.rating.contact_temperature(x, heat[1:], SPEEDS, (350.0, 350.0))
 
 
 def test_probability_of_scuffing_is_a_half_at_the_mean_and_normal_about_it():
     limit = 273.15 + 200.0
-    assert gl.scuffing_probability(limit, limit) == 0.5
-    assert gl.scuffing_probability(limit - 30.0, limit) == pytest.approx(0.158655, abs=1e-6)
+    assert gl.rating.scuffing_probability(limit, limit) == 0.5
+    assert gl.rating.scuffing_probability(limit - 30.0, limit) == pytest.approx(0.158655, abs=1e-6)
 
 
 GEARS = tuple(replace(g, arithmetic_roughness=0.6e-6) for g in STAGE_3_GEARS)
-OIL = gl.FlankOil(
+OIL = gl.rating.FlankOil(
     temperature=353.15, viscosity=lambda T: 30.09e-3, viscosity_40=220e-6, load_stage=14,
     test_torque=714.2,
 )  # fmt: skip
-LOAD = gl.FlankLoad(
+LOAD = gl.rating.FlankLoad(
     pair=STAGE_3, gears=GEARS, oil=OIL, line_load=666.85e3, load_factor=1119.63 / 666.85,
     pinion_speed=1165.9 * math.pi / 30.0,
 )  # fmt: skip
 
 
 def test_flash_temperature_of_the_third_stage_is_near_the_printed_one():
-    found = gl.flash_rating(LOAD, friction=0.041)
+    found = gl.rating.flash_rating(LOAD, friction=0.041)
     assert found.factors["X_M"] == pytest.approx(50.058, rel=1e-3)
     assert found.factors["X_ab"] == pytest.approx(1.016, abs=1e-3)
     # both ends are equally hot within 3e-4; the report has the end E, 0.529
@@ -114,16 +114,18 @@ def test_flash_temperature_of_the_third_stage_is_near_the_printed_one():
 
 
 def test_integral_temperature_of_the_third_stage_is_the_printed_one():
-    found = gl.integral_rating(LOAD, tip_relief=2e-6, effective_relief=44.74e-6)
+    found = gl.rating.integral_rating(LOAD, tip_relief=2e-6, effective_relief=44.74e-6)
     printed = {
         "K_Bg": 1.2735, "X_R": 0.7124, "X_BE": 0.2295, "X_eps": 0.2628, "X_Ca": 1.0949, "X_Q": 1.0,
         "theta_flaint": 16.25,
     }  # fmt: skip
     torque = replace(LOAD, oil=replace(OIL, test_torque=714.2))
     relief = {"tip_relief": 2e-6, "effective_relief": 44.74e-6}
-    assert gl.integral_rating(torque, **relief).outside == ()
+    assert gl.rating.integral_rating(torque, **relief).outside == ()
     without = replace(LOAD, oil=replace(OIL, test_torque=None))
-    assert "3.726 S^2 N.m, is from memory" in gl.integral_rating(without, **relief).outside[0]
+    assert (
+        "3.726 S^2 N.m, is from memory" in gl.rating.integral_rating(without, **relief).outside[0]
+    )
     for name, value in printed.items():
         # the printed flash temperature is 1 % below its own factors
         assert found.factors[name] == pytest.approx(value, rel=0.01 if "fl" in name else 1e-3)
@@ -142,7 +144,7 @@ def test_the_contact_ratio_factor_has_no_steps():
 
 
 def test_the_flash_formula_agrees_with_the_integral_over_the_contact():
-    found = gl.flash_rating(LOAD, friction=0.041)
+    found = gl.rating.flash_rating(LOAD, friction=0.041)
     path = LOAD.path
     k = int(np.argmin(np.abs(path.gamma - found.gamma)))
     omega = LOAD.pinion_speed
@@ -157,15 +159,15 @@ def test_the_flash_formula_agrees_with_the_integral_over_the_contact():
     x = np.linspace(-a, a, 401)
     middle = 0.5 * (x[1:] + x[:-1])
     q = 0.041 * abs(u_1 - u_2) * 2.0 * w / (math.pi * a) * np.sqrt(1.0 - (middle / a) ** 2)
-    integral = gl.contact_temperature(x, q, (u_1, u_2), (350.0, 350.0))
+    integral = gl.rating.contact_temperature(x, q, (u_1, u_2), (350.0, 350.0))
     # constants of the standard are 1 % above Blok's
     assert found.factors["theta_fl"] == pytest.approx(integral.flash, rel=0.02)
 
 
 def test_gears_outside_of_the_range_of_the_standard_are_named():
-    assert gl.flash_rating(LOAD, friction=0.04).outside == ()
-    assert "from memory; give friction" in gl.flash_rating(LOAD).outside[0]
-    said = gl.flash_rating(replace(LOAD, pinion_speed=600.0)).outside
+    assert gl.rating.flash_rating(LOAD, friction=0.04).outside == ()
+    assert "from memory; give friction" in gl.rating.flash_rating(LOAD).outside[0]
+    said = gl.rating.flash_rating(replace(LOAD, pinion_speed=600.0)).outside
     assert "pitch line speed below 80 m/s" in said[0]
     with pytest.raises(ParameterError, match="line_load must be above 0 N/m"):
         replace(LOAD, line_load=0.0)
@@ -174,11 +176,11 @@ def test_gears_outside_of_the_range_of_the_standard_are_named():
     with pytest.raises(ParameterError, match=r"viscosity must be a function .* got 0\.03"):
         replace(OIL, viscosity=0.03)
     with pytest.raises(ParameterError, match="load_stage of the oil must be given"):
-        gl.flash_rating(replace(LOAD, oil=replace(OIL, load_stage=None)))
+        gl.rating.flash_rating(replace(LOAD, oil=replace(OIL, load_stage=None)))
 
 
 def test_a_rating_hands_its_load_on():
-    load = gl.FlankLoad.of(rated_stage_3(), STAGE_3, GEARS, OIL)
+    load = gl.rating.FlankLoad.of(rated_stage_3(), STAGE_3, GEARS, OIL)
     assert load.w == pytest.approx(1119.63, rel=1e-3)
     assert load.pinion_speed == pytest.approx(LOAD.pinion_speed)
 

@@ -22,11 +22,11 @@ CAR = gl.read_axle("mohammadpour_2015")
 
 def trace(**columns):
     count = len(next(iter(columns.values())))
-    return gl.DriveCycle(**({"name": "mine", "time": np.arange(float(count))} | columns))
+    return gl.studies.DriveCycle(**({"name": "mine", "time": np.arange(float(count))} | columns))
 
 
 STEADY = np.full(20, 10.0)
-COARSE = gl.LossGrid(torques=8, speeds=6, temperature_step=45.0)
+COARSE = gl.studies.LossGrid(torques=8, speeds=6, temperature_step=45.0)
 
 
 def test_the_hardest_braking_and_gaining_that_tyres_hold_are_taken():
@@ -132,7 +132,7 @@ def written(folder, text):
     ],
 )
 def test_columns_carry_their_units(tmp_path, text, quantity, expected):
-    cycle = gl.DriveCycle.given(str(written(tmp_path, text)))
+    cycle = gl.studies.DriveCycle.given(str(written(tmp_path, text)))
     assert getattr(cycle, quantity) == pytest.approx(np.array(expected), rel=1e-8)
     assert cycle.name == "trace"
 
@@ -151,18 +151,18 @@ def test_columns_carry_their_units(tmp_path, text, quantity, expected):
 )
 def test_a_wrong_file_is_refused(tmp_path, text, words):
     with pytest.raises(ParameterError, match=words):
-        gl.DriveCycle.read(written(tmp_path, text))
+        gl.studies.DriveCycle.read(written(tmp_path, text))
 
 
 def test_files_that_are_no_traces_are_refused(tmp_path):
     with pytest.raises(ParameterError, match=r"The table gone\.csv was not found in "):
-        gl.DriveCycle.given(str(tmp_path / "gone.csv"))
+        gl.studies.DriveCycle.given(str(tmp_path / "gone.csv"))
     workbook = tmp_path / "trace.xlsx"
     workbook.write_bytes(b"PK\x03\x04\xff\xfe\x80")
     with pytest.raises(ParameterError, match="not as a workbook"):
-        gl.DriveCycle.given(str(workbook))
+        gl.studies.DriveCycle.given(str(workbook))
     with pytest.raises(ParameterError, match="one of nedc, wltc, ftp75, got 'wltz'"):
-        gl.DriveCycle.given("wltz")
+        gl.studies.DriveCycle.given("wltz")
 
 
 @pytest.fixture(scope="module")
@@ -229,7 +229,7 @@ def test_assumed_heat_makes_a_band_and_given_heat_none():
     assumed = gl.run_cycle(settings)
     width = assumed["oil_temperature_high"] - assumed["oil_temperature_low"]
     assert float(width[-1]) > 0.0
-    heat = gl.SumpHeat(capacity=17e3, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
+    heat = gl.studies.SumpHeat(capacity=17e3, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
     given = gl.run_cycle(replace(settings, heat=heat))
     assert (
         given["oil_temperature_high"].values.tolist()
@@ -253,7 +253,7 @@ def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
     from gearlube.studies.drive_cycle.spread import uncertain_inputs
 
     draws = 12
-    heat = gl.SumpHeat(capacity=1e7, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
+    heat = gl.studies.SumpHeat(capacity=1e7, conductance_at_rest=6.0, conductance_at_100_kmh=20.0)
     settings = gl.DriveCycleSettings(
         car=CAR,
         cycle=trace(speed=np.linspace(5.0, 25.0, 30)),
@@ -296,13 +296,15 @@ def test_without_draws_there_is_no_error_bar_of_the_efficiency():
 
 
 def test_noise_of_a_sensor_at_rest_is_zero_and_said():
-    cycle = gl.DriveCycle(name="mine", time=np.arange(4.0), speed=np.array([0.0, -0.02, 0.1, 0.5]))
+    cycle = gl.studies.DriveCycle(
+        name="mine", time=np.arange(4.0), speed=np.array([0.0, -0.02, 0.1, 0.5])
+    )
     assert cycle.speed.tolist() == [0.0, 0.0, 0.1, 0.5]
     assert cycle.notes == (
         "1 of 4 rows have a speed from -0.072 km/h to 0: noise of a sensor at rest, taken as 0.",
     )
     turning = np.array([-1.0, 0.0, 5.0, 9.0])
-    cycle = gl.DriveCycle(
+    cycle = gl.studies.DriveCycle(
         name="m", time=np.arange(4.0), pinion_speed=turning, pinion_torque=turning
     )
     assert cycle.pinion_speed.tolist() == [0.0, 0.0, 5.0, 9.0]
@@ -314,19 +316,19 @@ def test_a_cycle_of_vecto_over_time_is_read_with_its_grade(tmp_path):
     path.write_text(
         "<t> [s],<v> [km/h],<grad> [%],<gear>\nc [s],[km/h],[%],[-]\n0.5,0,-2,0\n1.5,3.6,4,1\n"
     )
-    cycle = gl.DriveCycle.given(str(path))
+    cycle = gl.studies.DriveCycle.given(str(path))
     assert cycle.time.tolist() == [0.5, 1.5]
     assert cycle.speed.tolist() == [0.0, 1.0]
     assert cycle.grade.tolist() == [-0.02, 0.04]
     assert cycle.notes == ("Columns of the cycle that are not used: <gear>.",)
     path.write_text("<v>\n0\n3.6\n7.2\n")  # a row each second
-    assert gl.DriveCycle.given(str(path)).time.tolist() == [0.0, 1.0, 2.0]
+    assert gl.studies.DriveCycle.given(str(path)).time.tolist() == [0.0, 1.0, 2.0]
 
 
 def test_a_cycle_of_vecto_over_distance_is_driven_within_the_limits_of_its_driver(tmp_path):
     path = tmp_path / "distance.vdri"
     path.write_text("<s>,<v>,<grad>,<stop>\n0,0,1,2\n1,18,1,0\n101,18,3,0\n200,0,3,7\n400,0,0,0\n")
-    cycle = gl.DriveCycle.given(str(path))
+    cycle = gl.studies.DriveCycle.given(str(path))
     # 18 km/h and 1 m/s2 both ways: 2 s and 7 s of rest, each way 5 s and 12.5 m up and down. After
     # the stop no target follows, so that the last one above 0 holds to the end, where it stands
     legs = [5.0 + (way - 25.0) / 5.0 + 5.0 for way in (200.0, 200.0)]
@@ -358,7 +360,7 @@ def test_a_refused_trace_names_the_line_of_its_file(last, words, tmp_path):
     path = tmp_path / "trace.csv"
     path.write_text(f"# measured\ntime_s,speed_kmh\n0,0\n\n1,0\n{last}\n")
     with pytest.raises(ParameterError, match=words) as told:
-        gl.DriveCycle.read(path)
+        gl.studies.DriveCycle.read(path)
     assert "name the column" not in str(told.value)  # it has that name already
 
 
@@ -381,7 +383,7 @@ def test_a_wrong_cycle_of_vecto_is_refused(text, words, tmp_path):
     path = tmp_path / "wrong.vdri"
     path.write_text(text)
     with pytest.raises(ParameterError, match=words):
-        gl.DriveCycle.given(str(path))
+        gl.studies.DriveCycle.given(str(path))
 
 
 def test_losses_between_oil_temperatures_lie_on_the_line_between_their_neighbours():

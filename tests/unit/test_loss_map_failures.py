@@ -138,7 +138,7 @@ def test_a_grid_or_a_cycle_that_needs_every_point_says_which_failed(axle):
     car = gl.read_axle(axle)
     with pytest.raises(ParameterError, match=rf"none was found at .* N.m: {REASON}"):
         regulation_map(gl.LossMapSettings(axle=car.axle, draws=0))
-    cycle = gl.DriveCycle(name="cruise", time=np.arange(5.0), speed=np.full(5, 25.0))
+    cycle = gl.studies.DriveCycle(name="cruise", time=np.arange(5.0), speed=np.full(5, 25.0))
     hot = gl.celsius_to_kelvin(130.0)
     with pytest.raises(ParameterError, match=rf"every point of the map.*{REASON}"):
         gl.run_cycle(

@@ -60,6 +60,9 @@ def test_nearest_tests_are_those_that_name_the_function(tmp_path: Path) -> None:
         "gearlube_core/a.py": "@kernel\ndef force(): ...\ndef other(): ...\n",
         "gearlube_core/b.py": "from gearlube_core.a import other\n",
         "gearlube_core/c.py": "",
+        "gearlube/oil.pyi": "from gearlube_core.d import film as film\n",
+        "gearlube_core/d.py": "def film(): ...\n",
+        "tests/test_oil.py": "import gearlube as gl\ngl.oil.film()\n",
         "tests/helpers/cases.py": "import gearlube as gl\ngl.force()\n",
         "tests/test_near.py": "from tests.helpers.cases import case\n",
         "tests/test_named.py": "from gearlube_core.a import force\n",
@@ -71,5 +74,8 @@ def test_nearest_tests_are_those_that_name_the_function(tmp_path: Path) -> None:
     reach = Reach(tmp_path)
     found = [test for _, test in reach.tests_of("gearlube_core/a.py", "force")]
     assert found == ["tests/test_named.py", "tests/test_near.py", "tests/test_far.py"]
+    assert [test for _, test in reach.tests_of("gearlube_core/d.py", "film")] == [
+        "tests/test_oil.py"
+    ]
     assert reach.is_compiled("gearlube_core/a.py")
     assert not reach.is_compiled("gearlube_core/c.py")

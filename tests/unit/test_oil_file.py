@@ -45,7 +45,7 @@ def written(folder: Path, **changes: object) -> Path:
     return path
 
 
-def origins(oil: gl.DescribedOil) -> dict[str, str]:
+def origins(oil: gl.oil.DescribedOil) -> dict[str, str]:
     return {note.field: note.origin for note in oil.inputs}
 
 
@@ -81,7 +81,7 @@ def test_what_the_file_gives_is_given_and_the_rest_is_not(tmp_path):
     assert named == fields | factor | {"viscosity_law"}
     newtonian = gl.read_oil(written(tmp_path, shear_law="newtonian"))
     assert origins(newtonian)["shear_law"] == "given"
-    thick = gl.film_oil_of(newtonian.lubricant, 313.15)
+    thick = gl.oil.film_oil_of(newtonian.lubricant, 313.15)
     assert thick.shear.tau0 == 0.0  # as an oil of film_oil(shear_law="newtonian")
 
 

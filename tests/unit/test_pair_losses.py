@@ -245,7 +245,7 @@ def test_the_air_takes_what_the_axle_loses_there(steady):
 
 def test_it_is_that_of_one_point_alone(steady):
     for j, k in ((0, 2), (1, 0), (1, 2)):
-        alone = gl.steady_temperature(
+        alone = gl.studies.steady_temperature(
             CAR, torque=TORQUES[k], speed=SPEEDS[j], air_temperature=COLD_AIR
         )
         # 0.1 % of the loss is as much of the rise, some 50 K
@@ -264,7 +264,9 @@ def test_more_torque_and_warmer_air_make_warmer_oil(steady):
 
 
 def test_oil_that_comes_to_no_rest_has_no_temperature():
-    poor = replace(COOLING, heat=gl.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=0.5))
+    poor = replace(
+        COOLING, heat=gl.studies.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=0.5)
+    )
     found, lost = steady_temperatures(
         CAR.axle, poor, torques=np.array([0.0, 300.0]), speeds=np.array([1.0, 300.0])
     )
@@ -292,9 +294,9 @@ def test_the_command_writes_the_steady_temperature(tmp_path, caplog):
     more += ["--conductance-at-100", "6", "--temperatures", "40", "80", "--out", str(out)]
     ended = CliRunner().invoke(command_line(COMMANDS), [*WORDS, *more])
     assert ended.exit_code == 0, ended.output
-    heat = gl.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=6.0)
+    heat = gl.studies.SumpHeat(conductance_at_rest=0.5, conductance_at_100_kmh=6.0)
     with pytest.raises(ParameterError, match="steady oil temperature must be below"):
-        gl.steady_temperature(
+        gl.studies.steady_temperature(
             CAR, torque=300.0, speed=2000.0 * np.pi / 30.0, air_temperature=283.15, heat=heat
         )
     assert "1 of 2 torques and speeds reach no steady temperature" in caplog.text

@@ -23,10 +23,17 @@ SCRIPTS = (
 )
 
 
-@each("name", gearlube.__all__)
+NAMES = [(group.module, name) for group in api.groups() for name in group.names]
+
+
+@each("name", NAMES)
 def test_every_public_name_has_words_and_an_example(name):
-    assert inspect.getdoc(getattr(gearlube, name))
-    assert api.example(name)
+    assert inspect.getdoc(api.public(*name))
+    assert api.example(*name)
+
+
+def test_about_25_names_stand_at_the_top():
+    assert len([name for module, name in NAMES if module == "gl"]) <= 28
 
 
 def test_the_page_is_up_to_date():
@@ -35,9 +42,13 @@ def test_the_page_is_up_to_date():
 
 
 def test_every_name_is_in_one_group():
-    grouped = [name for group in api.groups() for name in group.names]
-    assert sorted(grouped) == sorted(gearlube.__all__)
-    assert len(set(grouped)) == len(grouped)
+    modules = {module for module, _ in NAMES} - {"gl"}
+    own = {name for module, name in NAMES if module == "gl"}
+    assert set(gearlube.__all__) == own | {one.removeprefix("gl.") for one in modules}
+    for module in modules:
+        names = [name for of, name in NAMES if of == module]
+        assert sorted(names) == sorted(api.public("gl", module[3:]).__all__)
+    assert len(set(NAMES)) == len(NAMES)
 
 
 def test_an_unknown_name_says_where_the_names_are():

@@ -86,14 +86,14 @@ def test_the_torque_factor_makes_the_damage_1():
         found = spectrum_damage(bins, rate, ratio=3.0, repeats=2e5, factor=factor)
         return found.sums()["pitting, drive"][0]
 
-    safety = gl.torque_factor(damage)
+    safety = gl.rating.torque_factor(damage)
     assert 0.1 < safety < 10.0
     assert damage(safety) == pytest.approx(1.0, rel=1e-6)
 
 
 def test_the_torque_factor_of_few_cycles_is_that_of_the_static_strength():
     bins = DutyBins(*(np.array([x]) for x in (100.0, 1.0, 330.0, 1e-3)))
-    factor = gl.torque_factor(
+    factor = gl.rating.torque_factor(
         lambda f: spectrum_damage(bins, rate, ratio=1.0, factor=f).sums()["pitting, drive"][0]
     )
     assert factor == pytest.approx(1.6**2, rel=1e-6)
@@ -106,11 +106,11 @@ def test_limits_that_a_bin_exceeds_are_kept():
 
 def test_damage_of_a_gear_pair_over_bins_runs_by_its_standard():
     pair = gl.HelicalGearFile.named("he_2007").helical_pair()
-    gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    gear = gl.rating.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
 
     def by_standard(torque: float, speed: float, temperature: float) -> StrengthRating:
-        return gl.cylindrical_rating(
-            pair, (gear, replace(gear, mean_stress=0.7)), gl.LoadFactors(face=1.2),
+        return gl.rating.cylindrical_rating(
+            pair, (gear, replace(gear, mean_stress=0.7)), gl.rating.LoadFactors(face=1.2),
             pinion_torque=abs(torque), pinion_speed=speed, cycles=(1e6, 1e6), oil_viscosity=1e-4,
         )  # fmt: skip
 

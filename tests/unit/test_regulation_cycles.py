@@ -26,7 +26,7 @@ def test_nedc_has_the_phases_that_the_regulation_counts():
 
 
 def test_nedc_has_length_time_and_highest_speed_of_the_regulation():
-    cycle = gl.DriveCycle.named("nedc")
+    cycle = gl.studies.DriveCycle.named("nedc")
     assert cycle.duration == 1180.0
     assert cycle.speed.max() == pytest.approx(120.0 / 3.6, rel=1e-12)
     # 4.052 and 6.955 km are stated, rounded over corners that the tables do not have
@@ -36,7 +36,7 @@ def test_nedc_has_length_time_and_highest_speed_of_the_regulation():
 
 def test_nedc_is_that_of_a_package_a_second_apart():
     held = pytest.importorskip("wltp.cycles.nedc").cycle_data()["cycle"]
-    ours = 3.6 * gl.DriveCycle.named("nedc").speed
+    ours = 3.6 * gl.studies.DriveCycle.named("nedc").speed
     # where the package is late or early by a second; two accelerations are rounded there
     assert np.abs(ours[1:] - np.array(held)).max() <= 3.1
     assert np.mean(np.abs(ours[1:] - np.array(held)) > 0.02) < 0.05
@@ -44,7 +44,7 @@ def test_nedc_is_that_of_a_package_a_second_apart():
 
 def test_wltc_has_the_sums_of_the_regulation():
     pytest.importorskip("wltp.cycles.class3")
-    cycle = gl.DriveCycle.named("wltc")
+    cycle = gl.studies.DriveCycle.named("wltc")
     assert cycle.time.size == 1801
     assert cycle.distance == pytest.approx(23_266.3, abs=0.1)
     assert 3.6 * cycle.speed.max() == pytest.approx(131.3, abs=1e-9)
@@ -52,7 +52,7 @@ def test_wltc_has_the_sums_of_the_regulation():
 
 def test_ftp75_has_the_length_of_the_regulation():
     pytest.importorskip("fastsim")
-    cycle = gl.DriveCycle.named("ftp75")
+    cycle = gl.studies.DriveCycle.named("ftp75")
     assert cycle.time.size == 1875
     assert cycle.distance == pytest.approx(17_769.0, abs=2.0)
     assert cycle.speed[-505:].tolist() == cycle.speed[1:506].tolist()
@@ -63,7 +63,7 @@ def test_a_missing_package_is_named_with_its_cure(monkeypatch, cycle, package):
     for name in (package, "wltp.cycles", "wltp.cycles.class3"):
         monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(ParameterError, match=rf"{package}, which is not inst.*gearlube\[cycles\]"):
-        gl.DriveCycle.named(cycle)
+        gl.studies.DriveCycle.named(cycle)
 
 
 def test_a_trace_that_is_not_the_regulations_is_refused(monkeypatch):
@@ -72,7 +72,7 @@ def test_a_trace_that_is_not_the_regulations_is_refused(monkeypatch):
     for name in ("wltp", "wltp.cycles", "wltp.cycles.class3"):
         monkeypatch.setitem(sys.modules, name, module)
     with pytest.raises(ParameterError, match=r"must have 1801, 83758\.6; got 1801 speeds with sum"):
-        gl.DriveCycle.named("wltc")
+        gl.studies.DriveCycle.named("wltc")
     del module.class_data_b
     with pytest.raises(ParameterError, match="does not hold its trace"):
-        gl.DriveCycle.named("wltc")
+        gl.studies.DriveCycle.named("wltc")

@@ -17,9 +17,9 @@ from gearlube_core.rexs.exchange import read_rexs, write_rexs
 
 def rated(**factors):
     file = HelicalGearFile.named("he_2007")
-    gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    rating = gl.cylindrical_rating(
-        file.helical_pair(), (gear, gear), gl.LoadFactors(**factors), pinion_torque=300.0,
+    gear = gl.rating.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    rating = gl.rating.cylindrical_rating(
+        file.helical_pair(), (gear, gear), gl.rating.LoadFactors(**factors), pinion_torque=300.0,
         pinion_speed=200.0, cycles=(5e7, 5e7), oil_viscosity=100e-6,
     )  # fmt: skip
     return file, RatedLoad(rating, 300.0, 200.0)
@@ -88,10 +88,10 @@ def test_a_rating_of_other_gears_is_refused(tmp_path):
 def test_a_bevel_pair_is_rated_by_iso_10300_with_a_nominal_stress_of_each_gear(tmp_path):
     file = BlankFile.named("hypoid_13_42")
     mesh = BevelMesh.of_blank(DesignedBlank.from_file(file).blank)
-    gear = gl.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
-    rating = gl.bevel_rating(
-        mesh, (gear, gear), gl.LoadFactors(face=1.5), pinion_torque=200.0, pinion_speed=150.0,
-        cycles=(5e7, 5e7), oil_viscosity=100e-6,
+    gear = gl.rating.RatedGear(treatment="case_hardened", contact_limit=1.5e9, bending_limit=4.3e8)
+    rating = gl.rating.bevel_rating(
+        mesh, (gear, gear), gl.rating.LoadFactors(face=1.5),
+        pinion_torque=200.0, pinion_speed=150.0, cycles=(5e7, 5e7), oil_viscosity=100e-6,
     )  # fmt: skip
     write_rexs(file, tmp_path / "pair.rexs", RatedLoad(rating, 200.0, 150.0))
     found, _ = load_case(tmp_path / "pair.rexs")

@@ -76,9 +76,9 @@ def run_drivetrain(
     Examples
     --------
     >>> import gearlube as gl
-    >>> rotors = [gl.TrainBody.spinning("engine", 0.2), gl.TrainBody.spinning("wheel", 2.0)]
-    >>> shaft = gl.HalfShaft(name="shaft", first="engine", second="wheel", stiffness=1e4)
-    >>> parts = [shaft, gl.Port(name="motor", body="engine")]
+    >>> rotors = [gl.train.Body.spinning("engine", 0.2), gl.train.Body.spinning("wheel", 2.0)]
+    >>> shaft = gl.train.HalfShaft(name="shaft", first="engine", second="wheel", stiffness=1e4)
+    >>> parts = [shaft, gl.train.Port(name="motor", body="engine")]
     >>> train = gl.Train(rotors, parts, gl.Lubricant.named("mohammadpour_2015"))
     >>> start = {"speeds": {"engine": 100.0}, "torques": {"motor": 5.0}, "oil_temperature": 340.0}
     >>> motion = run_drivetrain(TrainCase(name="rotors", train=train, **start), duration=0.01)

@@ -53,7 +53,7 @@ def helical_flank_states(
     Examples
     --------
     >>> import gearlube as gl
-    >>> of = gl.HelicalSettings(
+    >>> of = gl.studies.HelicalSettings(
     ...     file=gl.HelicalGearFile.named("he_2007"), pinion_torque=200.0, pinion_speed=100.0
     ... )
     >>> found = helical_flank_states(

@@ -1,0 +1,5 @@
+"""Films solved in full: problems, cases and what solves them."""
+
+from gearlube.lazy_names import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(__name__, __file__)

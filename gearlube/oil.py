@@ -1,0 +1,5 @@
+"""Oils: viscosity, density, shear and heat, from names, files or numbers."""
+
+from gearlube.lazy_names import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(__name__, __file__)

@@ -1,0 +1,5 @@
+"""Rating of gears and bearings by standards."""
+
+from gearlube.lazy_names import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(__name__, __file__)

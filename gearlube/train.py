@@ -1,0 +1,5 @@
+"""Trains of bodies and elements: drivetrains of your own."""
+
+from gearlube.lazy_names import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(__name__, __file__)
