@@ -11,6 +11,7 @@ from gearlube_core.ehl.point.contact_domain import line_section as line_section
 from gearlube_core.ehl.point.contact_domain import elliptical_contact as elliptical_contact
 from gearlube_core.ehl.point.settings import PointSolverSettings as PointSolverSettings
 from gearlube_core.ehl.point.solver import solve_point_contact as solve_point_contact
+from gearlube_core.ehl.point.solid_contact import SolidContact as SolidContact
 
 # -- Rough surfaces
 from gearlube_core.ehl.statistics.zone import FilmZone as FilmZone

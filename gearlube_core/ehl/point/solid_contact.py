@@ -42,6 +42,12 @@ class SolidContact:
     barrier with a length and a pressure of its own, as boundary layers have: a pressure of 1 GPa
     leaves 5 nm of the 10 nm of the default, 9 GPa leave 2.5 nm. Thickness is a choice: films
     below it, and the area and the share of the load in contact, depend on it.
+
+    Examples
+    --------
+    >>> layer = SolidContact()
+    >>> round(1e9 * layer.film(1.0e9), 3)  # nm, half of the layer
+    5.0
     """
 
     thickness: float = 10e-9
