@@ -43,6 +43,9 @@ This page is written by `python -m docs.api` from docstrings; the tests run its 
 """
 
 
+_FACE_WORDS = "What most users need."
+
+
 class Group(NamedTuple):
     """Names under one heading; `module` is gl or one of its modules."""
 
@@ -83,12 +86,13 @@ def example(module: str, name: str) -> str:
 def page() -> str:
     """Return the text of the page."""
     parts = [_HEAD]
-    last = "gl"
+    last = ""
     for module, title, names in groups():
         if module != last:
-            parts.append(f"## {module}\n\n{inspect.getdoc(public('gl', module[3:]))}\n")
+            words = inspect.getdoc(public("gl", module[3:])) if module != "gl" else _FACE_WORDS
+            parts.append(f"## `{module}`\n\n{words}\n")
             last = module
-        parts.append(f"{'##' if module == 'gl' else '###'} {title}\n")
+        parts.append(f"### {title}\n")
         for name in names:
             value = public(module, name)
             first = " ".join((inspect.getdoc(value) or "").split("\n\n")[0].split())
