@@ -57,7 +57,17 @@ class Kind(Generic[_Base]):
         for found in iter_modules(spec.submodule_search_locations if spec else None):
             if fnmatch(found.name, self.files):
                 import_module(f"{self.package}.{found.name}")
-        return [name for name, one in self.parts.items() if self.is_ours(one)]
+        ours = {name: one for name, one in self.parts.items() if self.is_ours(one)}
+        bases = {
+            next(c for c in one.__mro__ if "kind" in vars(c)).__module__ for one in ours.values()
+        }
+        modules = {one.__module__ for one in ours.values()}
+        if not bases <= modules:
+            return list(ours)
+        # the same order whichever file was imported first: the parts beside the base stand first
+        return sorted(
+            ours, key=lambda name: (ours[name].__module__ not in bases, ours[name].__module__)
+        )
 
     def is_ours(self, part: type[_Base]) -> bool:
         """Return whether a part stands in the package."""

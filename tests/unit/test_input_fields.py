@@ -2,6 +2,7 @@
 
 import csv
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
@@ -27,6 +28,7 @@ from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
 from gearlube_core.input_file.field_notes import field_notes
 from gearlube_core.input_file.input_file import InputFile
+from gearlube_core.oil.named_laws import ViscosityLaw
 from gearlube_core.storage.atomic_file import atomic_write
 from gearlube_core.storage.file_names import Name, as_name, file_stem, pair_stem
 from tests.helpers.each import each
@@ -225,3 +227,11 @@ def test_what_the_page_points_to_exists(name):
         assert (DOCS / link).is_file(), link
     for path in re.findall(r"`((?:examples|tests|gearlube_core|drivetrain)/[\w./]+)`", text):
         assert (Path(DOCS).parent / path).exists(), path
+
+
+def test_names_of_laws_stand_in_one_order_whichever_file_was_imported_first():
+    kind = ViscosityLaw.kind
+    last_file_first = sorted(kind.parts.items(), key=lambda one: one[1].__module__, reverse=True)
+    backwards = replace(kind, parts=dict(last_file_first))
+    assert list(backwards.known()) == list(kind.known())
+    assert list(kind.known())[:3] == ["barus", "roelands", "houpert"]  # those beside the base
