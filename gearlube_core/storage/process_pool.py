@@ -10,8 +10,8 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import dataclass, field
 from functools import lru_cache, wraps
 from threading import Thread
 from typing import Any, Protocol, TypeVar, cast
@@ -86,6 +86,35 @@ class ProcessPool:
             if dead:
                 _end_workers(executor)
             executor.shutdown(wait=not dead, cancel_futures=True)
+
+
+@dataclass
+class KeptPool:
+    """Workers of a pool that stay for the next tasks; starting them takes seconds.
+
+    Parameters
+    ----------
+    pool : Pool
+    stack : ExitStack
+        Ends the workers.
+    """
+
+    pool: Pool
+    stack: ExitStack
+    _opened: list[Executor | None] = field(default_factory=list)
+
+    @contextmanager
+    def open(self, tasks: int) -> Iterator[Executor | None]:
+        """Give the executor that is there, or a new one where its processes have died."""
+        if not self._opened or getattr(self._opened[-1], "_broken", False):
+            self._opened.append(self.stack.enter_context(self.pool.open(tasks)))
+        executor = self._opened[-1]
+        try:
+            yield executor
+        except KeyboardInterrupt:
+            if isinstance(executor, ProcessPoolExecutor):
+                _end_workers(executor)
+            raise
 
 
 def _end_workers(executor: ProcessPoolExecutor) -> None:

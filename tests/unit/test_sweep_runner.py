@@ -4,6 +4,7 @@ import shutil
 import signal
 import threading
 from contextlib import nullcontext
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -49,7 +50,10 @@ def in_this_process(monkeypatch):
 
 
 class _NoProcess(ProcessPool):
+    opened: ClassVar[list[int]] = []
+
     def open(self, tasks):
+        self.opened.append(tasks)
         return nullcontext()
 
 
@@ -93,10 +97,12 @@ def test_speeds_are_added_around_the_largest_order_until_its_neighbours_are_near
     fmu, tmp_path, in_this_process
 ):
     coarse, fine = range(20, 101, 5), range(20, 101)
+    _NoProcess.opened.clear()
     options = {"preloads": (2500.0,)}
     dataset, seen = sweep(
         fmu, tmp_path / "out", resonance, speeds_kmh=coarse, peak_step_kmh=1.0, **options
     )
+    assert _NoProcess.opened == [len(coarse)]  # workers stay for the points around the peaks
     whole, _ = sweep(fmu, None, resonance, speeds_kmh=fine, **options)
     top, expected = (peak_orders(one)[0] for one in (dataset, whole))
     assert top == expected

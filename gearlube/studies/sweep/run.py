@@ -41,7 +41,7 @@ from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.folders import locked_folder
-from gearlube_core.storage.process_pool import Pool, ProcessPool, stop_on_interrupt
+from gearlube_core.storage.process_pool import KeptPool, Pool, ProcessPool, stop_on_interrupt
 from gearlube_core.storage.resumable import DATASETS, ResultStore, resumable_results
 
 _SPEED_KMH = 50.0
@@ -211,7 +211,8 @@ def run_sweep(
         directory = stack.enter_context(unpacked(archive))
         guid, kind = fmu_guid(directory), fmu_kind(directory)
         keys = _keys(product(speeds, loads), settings, guid)
-        compute, pool = _workers(archive, directory, settings, model, jobs, scheduler)
+        compute, workers = _workers(archive, directory, settings, model, jobs, scheduler)
+        pool = KeptPool(workers, stack)
         began = time.monotonic()
         done = _OF_GRID if peak_step_kmh else 1.0
         points, computed = _points(keys, compute, pool, folder, part_of(progress, 0.0, done))
@@ -230,7 +231,7 @@ def run_sweep(
         held: dict[Place, xr.Dataset] = {}
         if peak_step_kmh and settings.driver == "vehicle":
             free = replace(settings, driver="hold")
-            compute, pool = _workers(archive, directory, free, model, jobs, scheduler)
+            compute, _ = _workers(archive, directory, free, model, jobs, scheduler)
             tops = largest_peaks(merge(loads, speeds, points))
             places = {(top.speed_kmh, top.preload) for top in tops.values()}
             held, _ = _points(_keys(places, free, guid), compute, pool, folder, no_progress)
