@@ -6,7 +6,8 @@ Start here::
 
     axle = gl.read_axle("my_axle.toml").axle                    # or gl.mohammadpour_2015_axle()
     losses = gl.run_loss_map(gl.LossMapSettings(axle=axle))     # an xarray.Dataset
-    gl.build_hypoid_axle(...)                                   # its FMU
+
+Its FMU is built by `gearlube build-fmu --axle my_axle.toml`.
 
 The most used names are attributes of `gl`. All others are in these modules:
 

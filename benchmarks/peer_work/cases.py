@@ -107,6 +107,15 @@ def rough_loads(press):
     return run
 
 
+def found_frequencies(found, first, began, built):
+    """Return the answer on a gear pair: times [s] and the first frequencies [Hz] above LOWEST."""
+    return {
+        "seconds": time.perf_counter() - began,
+        "building": built - began,
+        "frequencies": found[found > LOWEST][:first].tolist(),
+    }
+
+
 def serve(run, version):
     """Answer each line of JSON on the standard input by one; prints of a program go elsewhere."""
     answers = os.fdopen(os.dup(1), "w")

@@ -5,7 +5,7 @@ import time
 from collections.abc import Sequence
 from importlib.metadata import version
 
-from cases import COUNT, LOWEST, PAIR, serve
+from cases import COUNT, PAIR, found_frequencies, serve
 
 import gearlube as gl
 
@@ -62,12 +62,7 @@ def run(mesh: float, first: int = COUNT, files: Sequence[str] = ("", "")) -> dic
     loads = {"driving": torque, "driven": torque * PAIR["teeth"][1] / PAIR["teeth"][0]}
     pair.initialise({"driving": 0.0}, loads, oil_temperature=333.15)
     found, _ = pair.modes()
-    done = time.perf_counter()
-    return {
-        "seconds": done - began,
-        "building": built - began,
-        "frequencies": found[found > LOWEST][:first].tolist(),
-    }
+    return found_frequencies(found, first, began, built)
 
 
 if __name__ == "__main__":

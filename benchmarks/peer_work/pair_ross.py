@@ -7,7 +7,7 @@ from importlib.metadata import version
 import numpy as np
 import ross as rs
 import scipy.linalg
-from cases import COUNT, LOWEST, PAIR, serve
+from cases import COUNT, PAIR, found_frequencies, serve
 
 
 def rotor(side, cuts, held=True):
@@ -55,12 +55,7 @@ def run(mesh, matrices=False, first=COUNT, files=()):
         found = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * math.pi)
     else:
         found = np.sort(pair.run_modal(speed=0, num_modes=48).wn) / (2.0 * math.pi)
-    done = time.perf_counter()
-    return {
-        "seconds": done - began,
-        "building": built - began,
-        "frequencies": found[found > LOWEST][:first].tolist(),
-    }
+    return found_frequencies(found, first, began, built)
 
 
 if __name__ == "__main__":

@@ -229,11 +229,10 @@ class Machine(NamedTuple):
 
 THIS_ONE = Machine()
 WINDOWS = Machine("x86_64-windows-gnu", "win64/{}.dll", ("wine",))
-ARM64 = Machine(
-    "aarch64-linux-gnu.2.36",
-    "aarch64-linux/{}.so",
-    ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"),
-)
+_QEMU = shutil.which("qemu-aarch64") or "qemu-aarch64"
+# the C library for arm64 of the same installation, as Debian's libc6-arm64-cross places it
+_FOR_ARM64 = str(Path(_QEMU).parent.parent / "aarch64-linux-gnu")
+ARM64 = Machine("aarch64-linux-gnu.2.36", "aarch64-linux/{}.so", (_QEMU, "-L", _FOR_ARM64))
 
 
 def c_host(folder: Path, machine: Machine = THIS_ONE) -> Path:

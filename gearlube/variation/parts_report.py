@@ -82,7 +82,7 @@ def check_figure(results: xr.Dataset, many: xr.Dataset) -> Any:
     with house_style():
         title = "Quick model and full runs that it has not seen"
         figure, panels = panels_of(results, title, many.sizes["quantity"], height=3.7)
-        for ax, (name, _, cell) in zip(panels, _cells(results, many), strict=True):
+        for ax, (name, unit, cell) in zip(panels, _cells(results, many), strict=True):
             seen = cell[["full", "quick"]].dropna("run")
             full, quick, bar = seen["full"].values, seen["quick"].values, float(cell["bar"])
             ends = np.array([min(full.min(), quick.min()), max(full.max(), quick.max())])
@@ -90,10 +90,10 @@ def check_figure(results: xr.Dataset, many: xr.Dataset) -> Any:
             ax.plot(ends, ends, color="black", lw=1.0)
             ax.fill_between(ends, ends - bar, ends + bar, alpha=0.2, lw=0.0, label="bar of 95 %")
             ax.set_xlabel(label_of(results, name))
-            ax.set_ylabel("quick model")
+            ax.set_ylabel(f"quick model [{unit}]")
             ax.set_title(
-                f"bias {number_text(float(cell['bias']), 2)}, "
-                f"rms {number_text(float(cell['rms']), 2)}, "
+                f"bias {quantity_text(float(cell['bias']), unit, 2)}, "
+                f"rms {quantity_text(float(cell['rms']), unit, 2)}, "
                 f"{100.0 * float(cell['coverage']):.0f} % within bars",
                 fontsize=9.5,
             )

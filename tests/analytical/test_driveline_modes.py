@@ -104,8 +104,9 @@ def test_a_stiff_axle_in_its_car_has_the_modes_of_a_rigid_one() -> None:
     line = Driveline(DAMPED, 60.0 / 3.6)
     rigid = driveline_modes(line)[0]
     found = min(coupled_modes(stiff, line), key=lambda one: abs(one.frequency - rigid.frequency))
-    # 3 % of the strain energy would be in axle springs of this stiffness's hundredth part
-    assert found.frequency == pytest.approx(rigid.frequency, rel=2e-3)
+    # the axle's own springs take part by the ratio of the stiffnesses, below 1 % here: half of
+    # that in the frequency
+    assert found.frequency == pytest.approx(rigid.frequency, rel=5e-3)
     assert found.damping_ratio == pytest.approx(rigid.damping_ratio, rel=5e-3)
     assert found.car_strain > 0.99
 

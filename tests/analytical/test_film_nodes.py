@@ -87,7 +87,7 @@ def test_at_a_node_friction_is_that_at_the_contact_itself(axle):
         ({"oil": OIL + 0.2}, False),
     ],
 )
-def test_nodes_are_evaluated_anew_when_force_speed_or_oil_have_changed(axle, now, holds):
+def test_nodes_are_evaluated_fresh_when_force_speed_or_oil_have_changed(axle, now, holds):
     axle.losses(0.3, tooth_pair.BETWEEN_NODES)
     before = axle.kept[flanks.FILMS :].copy()
     found = axle.losses(0.3, tooth_pair.BETWEEN_NODES, **now)
@@ -113,8 +113,8 @@ def test_what_is_kept_follows_force_and_speed(axle, now):
     for phase in phases:
         axle.losses(phase, tooth_pair.BETWEEN_NODES)
     kept = np.array([axle.losses(phase, tooth_pair.BETWEEN_NODES, **now)[:2] for phase in phases])
-    anew = Flanks()
-    exact = np.array([anew.losses(phase, tooth_pair.BETWEEN_NODES, **now)[:2] for phase in phases])
+    fresh = Flanks()
+    exact = np.array([fresh.losses(phase, tooth_pair.BETWEEN_NODES, **now)[:2] for phase in phases])
     then = np.array([axle.losses(phase, tooth_pair.BETWEEN_NODES)[:2] for phase in phases])
     # friction power follows force and speed by 1 to 3 %; slopes are those over the next 2 %, so
     # that 0.025 (0.025 + 0.02)/2 = 6e-4 is left, times a curvature of about one

@@ -78,7 +78,7 @@ def frozen(teeth):
     return found
 
 
-def anew(frozen, teeth, name, change):
+def analysed_again(frozen, teeth, name, change):
     """Return the orders with one field changed, on the cells that carried before."""
     role, _, key = name.split(".")
     value = getattr(getattr(FILE, role).flank, key)
@@ -109,7 +109,7 @@ def test_whine_moves_by_reliefs_as_analyses_of_frozen_lines_do(frozen, teeth):
     for k, name in enumerate(NAMES):
 
         def orders(change, name=name):
-            one, _ = motion(anew(frozen, teeth, name, change), speed)
+            one, _ = motion(analysed_again(frozen, teeth, name, change), speed)
             return np.concatenate([one.transmission_error, one.force])
 
         expected = extrapolated(orders, STEP)

@@ -247,7 +247,7 @@ def test_nodes_of_a_shaft_that_bends_rest_in_bearings_on_the_ground():
 
 
 def test_one_bearing_alone_carries_a_moment():
-    """A body that hangs on a single bearing tilts through its clearance."""
+    """A body that is held by a single bearing tilts through its clearance."""
     train = at_rest(shaft_on([ball("left", arm=0.0, housing_z=0.0)], force=(200.0, 0.0, 50.0)))
     out = train.outputs()
     assert out["left.moment.y"] == pytest.approx(-200.0 * 0.02, rel=1e-5)

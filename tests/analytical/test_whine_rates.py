@@ -68,7 +68,7 @@ def test_orders_move_as_those_of_motions_found_anew(ratio):
         name: scale * shape[None] for (name, scale), shape in zip(size.items(), shapes, strict=True)
     }
 
-    def anew(change):
+    def analysed_again(change):
         moved = {name: table.series[name] + change * rate for name, rate in rates.items()}
         mesh = replace(table, series={**table.series, **moved})
         return amplitudes(replace(pair, mesh=mesh), speed)
@@ -76,7 +76,7 @@ def test_orders_move_as_those_of_motions_found_anew(ratio):
     found = whine_rates(pair, rates, speed)
     near(
         np.concatenate([found.transmission_error_rate[0], found.force_rate[0]]),
-        extrapolated(anew, 2e-3),
+        extrapolated(analysed_again, 2e-3),
     )
 
 
@@ -130,7 +130,7 @@ def test_settings_move_whine_as_analyses_of_frozen_strips_do(cells):
     places = [QUANTITIES.index(name) for name in KEPT]
     for k, parameter in enumerate(variations.parameters):
 
-        def anew(change, parameter=parameter):
+        def analysed_again(change, parameter=parameter):
             values = np.array(
                 [
                     [
@@ -150,7 +150,7 @@ def test_settings_move_whine_as_analyses_of_frozen_strips_do(cells):
 
         near(
             np.concatenate([rates.transmission_error_rate[k], rates.force_rate[k]]),
-            extrapolated(anew, parameter.step),
+            extrapolated(analysed_again, parameter.step),
         )
 
 

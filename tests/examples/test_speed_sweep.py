@@ -22,7 +22,7 @@ def test_mesh_frequency_follows_the_vehicle_speed(tmp_path):
     assert int(results["status"].sum()) == 6
     speed = results["speed_kmh"].values / 3.6
     # Zg V / (2 pi r_t) with r_t = 3.05 D / (2 pi) of a 195/65R16 tyre; the slip of the driven
-    # tyres (0.5 % at most at this tractive force) comes on top.
+    # tyres (0.5 % at most at this tractive force) is added.
     radius = 3.05 * 0.6599 / (2.0 * math.pi)
     expected = 36 * speed / (2.0 * math.pi * radius)
     np.testing.assert_allclose(results["mesh_frequency"].sel(preload=2500.0), expected, rtol=5e-3)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import get_type_hints
 
 import numpy as np
 import pytest
@@ -20,12 +19,8 @@ from fmu_src.native.helical_parameters import (
     DENSITY_WITH_LINE_MESH,
     GIVEN_AT,
     INPUT_OUT_OF_RANGE,
-    MEMORY_AT,
     MISSING_CASE,
     NO_EQUILIBRIUM,
-    NUMBERS_AT,
-    PLAN_AT,
-    TRIAL_AT,
 )
 from fmu_src.native.model import OK, NativeModel, Operation
 from fmu_src.variable import taken_holder
@@ -43,18 +38,20 @@ from gearlube_core.dynamics.helical_model.pair import bearing_shares, helical_pa
 from gearlube_core.dynamics.helical_pair.march.given_pair import GivenPair
 from gearlube_core.dynamics.helical_pair.march.mesh_data import FILM_AT
 from gearlube_core.dynamics.ranges import TOO_FAR, range_limits
-from gearlube_core.dynamics.train.assemble import Assembly, assemble
+from gearlube_core.dynamics.train.assemble import assemble
 from gearlube_core.dynamics.train.element import RZ, W
-from gearlube_core.dynamics.train.elements.helical_mesh_kernels import TABLE, pair_data_at
+from gearlube_core.dynamics.train.elements.helical_mesh_kernels import pair_data_at
 from gearlube_core.dynamics.train.march import MAX_STEPS, NOT_FINITE, TOO_FAST, TOO_MANY_STEPS
 from gearlube_core.dynamics.train.plan import OF_TABLES
 from gearlube_core.dynamics.train.stepped_model import REVERSED
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.film_model.net import N_NUMBERS
-from gearlube_core.kernels.flat_tuples import count_floats
 from tests.helpers.native_helical_values import (
     PARAMETERS,
+    accepts,
+    check_train,
     own_gear,
+    places_of,
     python_model,
     random_values,
     usual_values,
@@ -116,16 +113,6 @@ def check_packed(loaded: LoadedModel, seed: int, count: int) -> None:
         np.testing.assert_array_equal(shares, bearing_shares(parameters))
         ranges = native.work[model.ranges_at : model.ranges_at + 2 * len(model.ranges)]
         np.testing.assert_array_equal(ranges, range_limits(parameters.ranges))
-
-
-def check_train(native: NativeRun, made: Assembly, memory: int | None = None) -> None:
-    """Numbers, plan and memory in the work array, so much of it, are those of a train in Python."""
-    np.testing.assert_array_equal(native.work[NUMBERS_AT:PLAN_AT], made.numbers)
-    plan, by_table = native.work[PLAN_AT:TRIAL_AT].view(np.int64), np.array(made.shape) == OF_TABLES
-    np.testing.assert_array_equal(plan[by_table], made.plan[by_table])
-    end = made.memory[:-1].size if memory is None else memory
-    found = native.work[MEMORY_AT + TABLE : MEMORY_AT + end]  # behind what a step leaves
-    np.testing.assert_array_equal(found, made.memory[TABLE:end])
 
 
 def check_starts(loaded: LoadedModel, seed: int, count: int) -> None:
@@ -276,15 +263,6 @@ def test_every_status_has_words(shipped: LoadedModel, tmp_path: Path) -> None:
     assert set(carried.refusals) == told | {MISSING_CASE + i for i in (3, 5, 7)}
 
 
-def accepts(run: NativeRun, **literals: int) -> bool:
-    """Whether the library takes the constants, as it asks when the FMU is loaded."""
-    counts = {v.argument: len(v.literals) for v in run.model.definition.variables
-              if v.is_model_parameter}  # fmt: skip
-    lengths = np.array([run.model.data.size, run.model.work_size], dtype=float)
-    options = np.array([*(counts | literals).values()], dtype=float)
-    return replace(run, parameters=lengths, inputs=options)(Operation.CHECK) == OK
-
-
 def test_more_oils_than_the_constants_hold_are_refused(shipped: LoadedModel) -> None:
     native = instance(shipped, values_of(), INPUTS)
     assert accepts(native)
@@ -399,7 +377,7 @@ def test_constants_are_taken_only_if_every_size_and_place_in_them_fits(
     given = case + HEAD_FLOATS
     lines = GivenPair._fields.index("lines")
     places = [0, 1, case, case + 1, case + 2]
-    places += [given + int(one) for one in _places_of(GivenPair)[lines : lines + 3]]
+    places += [given + int(one) for one in places_of(GivenPair)[lines : lines + 3]]
     for place in places:
         for value in (np.nan, np.inf, -1.0, 0.5, 1e5, 1e300):
             damaged = data.copy()
@@ -409,9 +387,3 @@ def test_constants_are_taken_only_if_every_size_and_place_in_them_fits(
         damaged = data.copy()
         damaged[place] = np.nan
         assert not shipped.takes(damaged, work)
-
-
-def _places_of(kind: type) -> list[int]:
-    """Return where each field of a tuple class begins among its floats."""
-    sizes = [1 if part is float else count_floats(part) for part in get_type_hints(kind).values()]
-    return [sum(sizes[:i]) for i in range(len(sizes))]

@@ -1,4 +1,4 @@
-"""The published table of films: what it says of itself, films solved again, and fits beside it."""
+"""The published table of films: its own statements, films solved again, and fits beside it."""
 
 from __future__ import annotations
 

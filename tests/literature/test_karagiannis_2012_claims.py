@@ -1,4 +1,4 @@
-"""What docs/resonance.md says of Karagiannis et al. 2012 beyond test_torsional_karagiannis_2012.py.
+"""Statements on Karagiannis et al. 2012 in docs/resonance.md that other files do not test.
 
 Coexisting motions, claims with the load of the periodic motion, and claims that do not hold: those
 are asserted as found, so that a change is noticed.

@@ -1,4 +1,4 @@
-"""What a thermal point film says of its error and its search for one, with made-up films."""
+"""The stated error of a thermal point film and the search for a film, with made-up films."""
 
 from dataclasses import dataclass, replace
 from types import SimpleNamespace

@@ -1,4 +1,4 @@
-"""What a helical gear file refuses, completes and says of its numbers."""
+"""Numbers that a helical gear file refuses, completes and reports."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""Numbers told of a line film, on fields with closed forms; and how a state becomes a result."""
+"""Numbers reported for a line film, from fields with closed forms; how a state becomes a result."""
 
 from __future__ import annotations
 

@@ -154,10 +154,8 @@ def test_loss_map_has_its_known_key_numbers_findings_and_tables(a_map):
 
 
 def test_loss_map_says_failures_films_bulk_steady_oil_and_ranges(a_map):
-    parts = (
-        a_map["loss"].sel(source="friction_viscous", drop=True),
-        a_map["loss"].sel(source="bearing_torque", drop=True),
-    )
+    sources = ("friction_viscous", "bearing_torque")
+    parts = [a_map["loss"].sel(source=one, drop=True) for one in sources]
     marked = xr.zeros_like(parts[0])
     marked[1, 0, 2] = 1.0
     a_map["status"][0, 0, 0], a_map["loss_torque"][0, 0, 0] = 4, np.nan
@@ -190,7 +188,7 @@ def test_loss_map_says_failures_films_bulk_steady_oil_and_ranges(a_map):
         (NOTE, "warms their bulk by up to", f"12 K, {at}"),
         (NOTE, "steady oil temperature is between … with air of", "25, 90 °C, 20 °C"),
         (WARNING, "reach no steady temperature", "1, 6"),
-        # 7 of 12 points; the largest part without has 2 torques at both speeds of the warmer oil
+        # 7 of 12 points; without: 2 torques, 2 speeds, the warmer oil
         (WARNING, "are extrapolated. The largest part … torque (the mesh table ends) at … film "
          "temperature (the oil", "58 %, 0, 100 N·m, 1000, 2000 rpm, 80, 80 °C, 33 %, 58 %, 8 %"),
     ]  # fmt: skip
@@ -370,8 +368,7 @@ def test_cycle_with_draws_has_their_error_bars_and_what_left_a_range(a_cycle):
         "energy to the friction brakes,12,kJ,,",
         "energy to the friction brakes,3.33333,Wh,,",
         "efficiency,0.95,1,0.94,0.96",
-        # 331.7 and 1676.8 W for 10 s to the wheels, 4 kJ lost: 20.0855/24.0855
-        "efficiency as one number,0.833925,1,,",
+        "efficiency as one number,0.833925,1,,",  # 20.0855 kJ to the wheels of 24.0855 kJ
         "oil temperature at the end,25,degC,22,31",
         "share of the running time outside range.torque,0.25,1,,",
         "share of the energy lost outside range.torque,0.4,1,,",

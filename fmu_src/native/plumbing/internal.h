@@ -16,11 +16,11 @@ unsigned char *gl_read_model(const char *resources, size_t *size, char why[GL_LO
 void gl_take_floats(gl_floats *host);
 void gl_give_floats(const gl_floats *host);
 
-/* Says of one refused value why; returns 0 if none is refused. */
+/* Reports why one value is refused; returns 0 if none is. */
 int gl_say_refused(gl_instance *instance, gl_status status, const char *before);
 void gl_find_refused(gl_instance *instance);
 
-/* Parameters of the model, options by number in the place of their enumeration. */
+/* Parameters of the model, options by number instead of their enumeration. */
 void gl_gather_parameters(const gl_model *model, const double *values, double *parameters);
 void gl_gather_inputs(const gl_model *model, const double *values, double *inputs);
 
@@ -35,7 +35,7 @@ uint32_t gl_checksum(uint32_t seed, const unsigned char *bytes, size_t size);
 /* Starts the model unless its outputs belong to the present values. */
 gl_status gl_start(gl_instance *instance);
 
-/* Says of an input beyond the limits of the model why it is refused; returns 0 if none is. */
+/* Reports why an input beyond the limits of the model is refused; returns 0 if none is. */
 int gl_say_input_beyond(gl_instance *instance, gl_status status, const char *before);
 
 /* Takes over what the model has computed, as bits. */

@@ -55,7 +55,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     --------
     >>> from gearlube.studies.sweep.datasets import load_sweep
     >>> findings(load_sweep("gearlube_sweep"))[0].headline  # doctest: +SKIP
-    'The loudest mesh order of the transmission error is order 1: 0.42 µm at 45 km/h, ...'
+    'The largest mesh order of the transmission error is order 1: 1.02 µm at 51 km/h ...'
     """
     failed = int((dataset["status"] != FINISHED).sum())
     points = dataset["status"].size

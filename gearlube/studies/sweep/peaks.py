@@ -122,7 +122,7 @@ def peak_orders(dataset: xr.Dataset, variable: str = "dte_spectrum") -> list[Pea
     return peaks
 
 
-_NAMED = 0.1  # of the largest order, from which on the place of an order is sought
+_NOTABLE = 0.1  # of the largest order, from which on the place of an order is sought
 # spectra whose largest mesh orders are in the findings, and their amplitude without the car
 PEAKS = {"dte_spectrum": "dte_order_held", "bearing_force_spectrum": "bearing_force_order_held"}
 
@@ -175,7 +175,7 @@ def speeds_at_peaks(dataset: xr.Dataset, step_kmh: float) -> list[float]:
         (variable, one)
         for variable, largest in largest_peaks(dataset).items()
         for one in peak_orders(dataset, variable)
-        if one.amplitude > _NAMED * largest.amplitude
+        if one.amplitude > _NOTABLE * largest.amplitude
     ]
     for variable, top in tops:
         row = dataset.sel(preload=top.preload)

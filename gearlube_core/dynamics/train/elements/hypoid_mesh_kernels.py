@@ -41,7 +41,6 @@ from gearlube_core.dynamics.ranges import RangeLimits
 from gearlube_core.dynamics.train.element import AFTER_STEP, RATE, RZ, W
 from gearlube_core.dynamics.train.elements.checks import fits_sizes, fits_table
 from gearlube_core.dynamics.train.elements.hypoid_mesh_places import (
-    ANEW,
     ASKED,
     AT_BOUND,
     AT_BOUNDARY,
@@ -64,6 +63,7 @@ from gearlube_core.dynamics.train.elements.hypoid_mesh_places import (
     OF_LOAD,
     OF_SIDE,
     OWN_FILMS,
+    RENEWED,
     TABLE,
     TORQUE,
     X_RATE,
@@ -133,7 +133,7 @@ class HypoidMeshKernels(NamedTuple):
         blend(at, memory, s)
         now = now_in(at, memory)
         memory[X_RATE] = mesh_force(mesh_motion(at, s), now.series, now.n_orders, self.mesh).x_rate
-        memory[ANEW] = 1.0
+        memory[RENEWED] = 1.0
         if at[N_FILM] > 0:
             friction = friction_in(at, memory)
             for i in range(N_FILMS):
@@ -167,7 +167,7 @@ class HypoidMeshKernels(NamedTuple):
         if stage == 0 or stage == AFTER_STEP:
             asked = EXACT if stage == 0 else BETWEEN_NODES
             memory[ASKED] = asked
-        elif stage == 2 or stage == 4 or (stage == 1 and memory[ANEW] != 0.0):
+        elif stage == 2 or stage == 4 or (stage == 1 and memory[RENEWED] != 0.0):
             asked = BETWEEN_NODES
         channels = part(memory, friction_at(at) + N_FRICTION, N_CHANNELS)
         friction = flank_sum(
@@ -204,7 +204,7 @@ class HypoidMeshKernels(NamedTuple):
     @kernel
     def after_part(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
         """See `Kernels.after_part`."""
-        memory[ANEW] = 0.0
+        memory[RENEWED] = 0.0
         load = at[AT_KEPT] + KEPT_LOAD
         if h != memory[LAST_STEP]:
             memory[LAST_STEP], memory[FOLLOWS] = h, -math.expm1(-h / LOAD_FILTER_TIME)

@@ -30,7 +30,7 @@ KEPT_LOAD, KEPT_SIDE, KEPT_STIFFNESS, OWN_FILMS = range(4)
 # transmission error [m/s] in the last stage, 1 while tractions are to be found again, length of
 # the last step [s], how much of a difference the load level follows in it, how films are asked for
 # outputs, 1 where periodic data are held at their means, the table
-OF_LOAD, OF_SIDE, TORQUE, X_RATE, ANEW, LAST_STEP, FOLLOWS, ASKED, AT_MEANS, TABLE = range(10)
+OF_LOAD, OF_SIDE, TORQUE, X_RATE, RENEWED, LAST_STEP, FOLLOWS, ASKED, AT_MEANS, TABLE = range(10)
 
 
 @inside
