@@ -140,7 +140,7 @@ def steady_temperatures(
     ----------
     axle
     cooling
-        Air and conductances.
+        Air temperature and thermal conductances.
     torques, speeds : ndarray
         Of the pinion [N.m], [rad/s].
     progress

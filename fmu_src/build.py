@@ -211,9 +211,9 @@ def build_models(
     model : {"hypoid-axle", "helical-pair", "driveline"}, optional
         By default those that a file is given for; without files all. The driveline is native.
     mesh_table : path, optional
-        Goes into HypoidAxle.fmu.
+        Mesh table built into HypoidAxle.fmu.
     gear, line_mesh : path, optional
-        Go into HelicalPair.fmu.
+        Gear file and line mesh built into HelicalPair.fmu.
     axle : path, optional
         Axle file of HypoidAxle.fmu and of the car, or the name of a shipped one.
     train : path, optional

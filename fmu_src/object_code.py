@@ -24,7 +24,7 @@ class Target(NamedTuple):
     Parameters
     ----------
     triple, cpu : str
-        Names of LLVM.
+        Target triple and processor, as LLVM names them.
     """
 
     triple: str
@@ -114,7 +114,7 @@ def intermediate_code(entry: Callable[..., Any], signature: Any, name: str) -> s
     entry : function
         Plain Python function over kernels, pointers made arrays by `array_at`.
     signature : numba signature
-        Of C types.
+        Argument types of the C function.
     name : str
         Symbol of the entry in the object file.
     """

@@ -306,7 +306,7 @@ OILS = ("mohammadpour_2015", "karagiannis_2012", "jamali_2015", "fva_3", "fva_3a
 
 def oil_name() -> Variable:
     """Return the choice of the oil."""
-    return option("oil.name", "Lubricant", *OILS, start=OILS[0], argument="oil")
+    return option("oil.name", "Name of the lubricant", *OILS, start=OILS[0], argument="oil")
 
 
 def speed_hold(start: float) -> tuple[Variable, ...]:

@@ -41,7 +41,7 @@ class LazyCommand:
     panel : str
         Heading over it in the list of commands.
     context_settings : mapping
-        Passed to click.
+        Settings of click's context, passed on.
     """
 
     name: str
@@ -321,9 +321,13 @@ def _show_version(wanted: bool) -> None:
 def _common(
     version: Annotated[
         bool,
-        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version."),
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="Show the version and exit."
+        ),
     ] = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log details.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Log details of the run.")
+    ] = False,
 ) -> None:
     logging.getLogger("gearlube").setLevel(logging.INFO)
     logging.getLogger("drivetrain").setLevel(logging.INFO)

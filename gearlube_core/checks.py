@@ -115,7 +115,7 @@ def read_content(
     Parameters
     ----------
     path
-        Of the file.
+        Path of the file to read.
     what
         Kind of file in errors, such as "mesh table".
     error

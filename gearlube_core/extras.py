@@ -14,7 +14,7 @@ def extra_package(module: str, extra: str, what: str, instead: str = "") -> Any:
     Parameters
     ----------
     module : str
-        Such as "sklearn.gaussian_process".
+        Module to import, such as "sklearn.gaussian_process".
     extra : str
         As in `pip install 'gearlube[extra]'`.
     what : str

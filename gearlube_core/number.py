@@ -115,7 +115,7 @@ def constants_of(constants: type[_Constants], parameters: object, **given: Any) 
     Parameters
     ----------
     constants : type
-        The NamedTuple class.
+        NamedTuple class of the constants.
     parameters : object
         A constant that is not in `given` is its attribute of the same name, as a float.
     **given

@@ -171,9 +171,9 @@ class HousingModel(Section):
         "e_axle_case"
     )
     mass_file: Text | None = Field(
-        default=None, description="Mass, where model_file has the stiffness alone"
+        default=None, description="Mass matrix, where model_file has the stiffness alone"
     )
-    damping_file: Text | None = Field(default=None, description="Damping, beside mass_file")
+    damping_file: Text | None = Field(default=None, description="Damping matrix, beside mass_file")
     node_table: Text | None = Field(
         default=None,
         description="Table of nodes (.csv): node, name, x, y, z; not for .npz",

@@ -122,7 +122,7 @@ def write_numbers(
     packed : ndarray
         Flattened AxleParameters, as they are or without losses, then AxleSettings.
     p, settings
-        As they are.
+        Parameters and settings as given.
     drags : float
         0 for the state at rest, without drag.
     """

@@ -65,7 +65,7 @@ class NativeOptions:
     Parameters
     ----------
     platforms : sequence of str
-        Names in PLATFORMS.
+        Platforms to build for, names in `PLATFORMS`.
     fmi : sequence of {"2", "3"}
         Versions of the standard, an archive for each.
     reference : bool

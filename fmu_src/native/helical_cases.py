@@ -79,7 +79,7 @@ class HelicalCases:
     Parameters
     ----------
     data : ndarray of shape (n,)
-        As described above.
+        Packed data in the order given above.
     missing : dict of int to str
         Why a case is missing, by its number.
     ranges : tuple of Range

@@ -22,7 +22,7 @@ def compare(
         ),
     ],
     second: Annotated[str, typer.Argument(help="Another folder of the same study.", metavar="B")],
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_compare"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_compare"),
     overwrite: OverwriteOption = False,
 ) -> None:
     """Compare two runs of one study, or a run with measurements. Writes report.html.

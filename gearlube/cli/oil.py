@@ -109,7 +109,9 @@ def fit(
     out: Annotated[Path, typer.Option(help="Oil file with the fitted stresses.")] = Path(
         "fitted_oil.toml"
     ),
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace OUT.")] = False,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace an existing OUT file.")
+    ] = False,
     example: Annotated[
         bool,
         prints_example(

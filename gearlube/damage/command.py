@@ -160,7 +160,7 @@ def damage(
     regeneration: Annotated[
         float, typer.Option(help="Share of the braking through the axle, 0 to 1.")
     ] = 0.0,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_damage"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_damage"),
     overwrite: OverwriteOption = False,
     example: Annotated[bool, prints_example(lambda: _EXAMPLE, "a table of bins")] = False,
 ) -> None:

@@ -47,7 +47,7 @@ def save_animation(
     first : int
         The figure whose colours all pictures have, so that none of them flickers.
     per_second : int
-        Pictures a second.
+        Frame rate [1/s].
     """
     from PIL import Image
 

@@ -33,9 +33,9 @@ class Axis:
     ----------
     name : str
     unit : str
-        "" for none.
+        Unit behind the axis name; "" for none.
     log : bool
-        Logarithmic.
+        True for a logarithmic axis.
     """
 
     name: str
@@ -56,13 +56,13 @@ class Line:
     Parameters
     ----------
     name : str
-        In the legend.
+        Line's text in the legend.
     x, y : sequence of float
         In the units of the axes.
     group : int
         Lines of one group have one colour; None: each its own.
     dash : int
-        0: solid.
+        Number of the dash pattern; 0: solid.
     """
 
     name: str

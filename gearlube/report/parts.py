@@ -125,7 +125,7 @@ class Figure:
     name : str
         The same in every run of the study; letters, digits, "_".
     title : str
-        A few words.
+        Caption of a few words.
     caption : str
         What is drawn, and what to see in it.
     chart : plotly.graph_objects.Figure, optional
@@ -152,11 +152,11 @@ class Recording:
     Parameters
     ----------
     title : str
-        A few words.
+        Caption of a few words.
     caption : str
         What is heard, and the pressure of its full scale.
     wav : bytes
-        A WAV file.
+        Content of a WAV file.
     """
 
     title: str

@@ -20,7 +20,7 @@ class Picture:
     draw : callable
         From the datasets of the study to a figure of matplotlib.
     title : str
-        A few words.
+        Caption of a few words.
     caption : str
         What is drawn, and what to see in it.
     needs : str

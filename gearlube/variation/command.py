@@ -95,7 +95,7 @@ def vary(
             help="Coarse settings for a first look (sweep, whine, helical, contact, resonance).",
         ),
     ] = False,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_vary"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_vary"),
     overwrite: OverwriteOption = False,
     keys: Annotated[
         bool,

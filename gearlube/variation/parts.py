@@ -89,7 +89,7 @@ def share_above(limit: float, parts: Array, errors: Array, seed: int = 1) -> Sha
     errors : ndarray of shape (n,)
         Full run less quick model, of runs that it has not seen.
     seed : int
-        Of the resampling.
+        Seed of the random resampling.
 
     Examples
     --------
@@ -178,7 +178,7 @@ def scattered_parts(
     limits : mapping, optional
         Limit of a quantity in its unit.
     seed : int
-        Of the parts.
+        Seed of the random parts.
 
     Returns
     -------

@@ -29,7 +29,7 @@ def scatter_of(
     name : str
         Of the file's subject.
     tolerances : mapping
-        By dotted field.
+        Tolerance of each dotted field.
     values : mapping
         Of the fields, defaults included.
 

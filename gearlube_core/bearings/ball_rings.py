@@ -142,7 +142,7 @@ def ball_rings(
     Parameters
     ----------
     n_balls : int
-        3 to 40.
+        Number of balls, 3 to 40.
     ball_diameter, pitch_diameter : float
         D_w, D_pw [m].
     inner_groove, outer_groove : float

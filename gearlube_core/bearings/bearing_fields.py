@@ -79,7 +79,7 @@ def roller_length_of_rating(
     rating : float
         C, basic dynamic radial load rating [N].
     rollers : int
-        Z.
+        Number of rollers Z [-].
     diameter, pitch : float
         Mean diameter D of a roller and diameter of the circle through the roller centres [m].
     contact_angle : float

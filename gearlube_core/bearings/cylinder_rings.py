@@ -213,7 +213,7 @@ def cylinder_rings(
     Parameters
     ----------
     n_rollers : int
-        3 to 40.
+        Number of rollers, 3 to 40.
     roller_diameter, pitch_diameter, length : float
         D, D_pw, effective length L [m].
     contact_modulus : float

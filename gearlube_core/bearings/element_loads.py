@@ -64,7 +64,7 @@ def tapered_loads(geometry: BearingGeometry, *, axial_load: float, radial_load: 
     Parameters
     ----------
     geometry
-        Bearing.
+        Geometry of the tapered roller bearing.
     axial_load, radial_load
         Of the row, not negative [N].
 

@@ -83,9 +83,9 @@ def raceway_drag(
     law
         Value of `laws.ROLLING_LAWS`; inlet heating is what the law is used with.
     oil
-        At the inlet.
+        Oil at the inlet temperature.
     p
-        Either bearing.
+        Numbers of a bearing of either type.
     side
         0: both bearings; +1 or -1: the one of that side alone.
 

@@ -73,7 +73,7 @@ def roller_film(line_load: float, speed: float, races: Races, film_model: Array)
     line_load, speed
         Load per length, above zero [N/m]; of rolling, above zero [m/s].
     races
-        Of the shaft.
+        Races of the shaft's bearings.
     film_model : ndarray, shape (net.N_ARRAY,)
         Numbers of the film model of rollers, written into.
     """
@@ -196,9 +196,9 @@ def solved_raceway_drag(
     motion
         Of the shaft; its velocities play no part.
     oil
-        At the inlet.
+        Oil at the inlet temperature.
     p
-        Either bearing.
+        Numbers of a bearing of either type.
     films
         With the nodes of this shaft.
     side

@@ -215,14 +215,14 @@ def rotor_history(
     step : float
         Time step [s].
     steps_per_sample : int
-        Steps between samples.
+        Number of steps between two samples.
     rotor : Rotor
     states : ndarray, shape (n, 6)
         Receives the state at each sample.
     loads : ndarray, shape (n, n_rollers)
         Receives the roller loads [N].
     work : ndarray, shape (5, 6)
-        Scratch.
+        Scratch memory, its values are lost.
 
     Returns
     -------

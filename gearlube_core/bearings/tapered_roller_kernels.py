@@ -203,7 +203,7 @@ def rib_drag(
     motion
         Of the shaft; its velocities play no part. At rest all torques are zero.
     oil
-        At the inlet.
+        Oil at the inlet temperature.
     p
         Either bearing; with a rib height or a contact angle of 0 there is no rib.
     side

@@ -32,15 +32,15 @@ def smallest_ball(
     Parameters
     ----------
     points
-        Shape (n, 5).
+        Points in stress space, shape (n, 5).
     tolerance
         Of the radius [-].
     most
-        Steps at most.
+        Largest number of steps.
     weights
-        Work, shape (n,).
+        Scratch memory, shape (n,).
     centre
-        Shape (5,), written.
+        Centre of the ball, shape (5,), written.
 
     Returns
     -------
@@ -121,7 +121,7 @@ class FatigueLimits:
     torsion
         t_-1, amplitude of the shear stress [Pa]; 0.5 to 0.8 of f_-1.
     name
-        Name in tables.
+        Name of the material in tables.
 
     Examples
     --------

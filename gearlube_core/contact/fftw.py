@@ -29,7 +29,7 @@ class SciPyTransform:
         Real to complex, complex to complex, or complex to real; `execute` reads and writes them.
     axes : tuple of int
     direction : str
-        "FFTW_FORWARD" or "FFTW_BACKWARD".
+        Direction: "FFTW_FORWARD" or "FFTW_BACKWARD".
     **options
         How FFTW plans; they change nothing here.
     """

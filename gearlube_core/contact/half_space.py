@@ -276,7 +276,7 @@ def multiply_spectra(matrices: np.ndarray, columns: np.ndarray, spectrum: np.nda
     Parameters
     ----------
     matrices : ndarray, shape (m, k, n)
-        Transposed.
+        Matrices of each wave number, transposed.
     columns : ndarray of int, shape (c,)
         Entries of the vectors that are not zero.
     spectrum : ndarray, shape (m, 2 k)

@@ -45,7 +45,7 @@ class PackedMesh:
     windows : ndarray of shape (L * (N + 1) * N_CHANNELS,)
         Pair data at the nodes, the first node repeated at the end.
     orders, nodes : int
-        H and N.
+        Numbers of orders H and nodes N.
     """
 
     levels: Array

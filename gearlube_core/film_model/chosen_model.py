@@ -119,7 +119,7 @@ def check_oil(model: FilmModel, oil: Lubricant, solid: Solid, what: str) -> None
     model, oil
         Film model, and the oil that it is to be used with.
     solid
-        Of both surfaces.
+        Elastic constants of both surfaces.
     what
         Name of the input in errors.
 

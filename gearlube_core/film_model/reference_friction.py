@@ -108,7 +108,7 @@ def reference_friction(
     R_x
         Relative radius across it [m].
     inlet
-        Oil and solids.
+        Oil and solids at the inlet.
 
     Notes
     -----
@@ -141,7 +141,7 @@ def line_reference_friction(
     Parameters
     ----------
     film, p, speed, slip, inlet
-        As there.
+        As of `reference_friction`.
     half_width
         b, dry [m].
     R

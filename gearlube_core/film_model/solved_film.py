@@ -73,7 +73,7 @@ def with_bounds(
     Parameters
     ----------
     numbers
-        Of the model.
+        Numbers of the film model.
     film, friction
         By it [m], [-].
     p

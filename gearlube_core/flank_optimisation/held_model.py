@@ -232,7 +232,7 @@ class CheckSettings:
     Parameters
     ----------
     positions : int
-        Mesh phases.
+        Number of phases of the mesh.
     helical, hypoid : LoadedSettings
         Cells of either kind of pair: those of the plain analyses.
     """

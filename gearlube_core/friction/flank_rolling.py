@@ -76,7 +76,7 @@ def flank_rolling_force(
     geometry
         See `rolling_geometry`.
     oil
-        At the inlet.
+        Oil at the inlet temperature.
     reduced_modulus
         E' = 2 E* [Pa].
 

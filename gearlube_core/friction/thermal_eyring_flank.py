@@ -108,7 +108,7 @@ def film_traction(
     flash_start, Y_start
         Where to begin the search: flash [K] and Y [-] of a similar film, or zeros.
     oil
-        At inlet temperature.
+        Oil at the inlet temperature.
     surface
         Roughness of the pair.
     contact_modulus

@@ -31,7 +31,7 @@ class FlankParameter:
     Parameters
     ----------
     name : str
-        As "pinion.flank.crown_um".
+        Dotted field, such as "pinion.flank.crown_um".
     unit : str
     value : float
         [unit]

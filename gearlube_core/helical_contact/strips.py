@@ -182,7 +182,7 @@ def cut_strip(
     half_width
         Off the line of action [m].
     settings
-        Numbers of cells.
+        Numbers of cells of a strip.
     """
     pair = modified.pair
     low, high = extent

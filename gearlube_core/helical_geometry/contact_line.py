@@ -63,7 +63,7 @@ def line_position(phase: float, pair: int, plane: ContactPlane) -> float:
     pair
         i = 0, 1, ...: lines by age; i of `line_count` lines can touch.
     plane
-        Plane of contact.
+        Plane of contact of the pair.
 
     Returns
     -------
@@ -158,7 +158,7 @@ def line_kinematics(x: float, pinion_speed: float, plane: ContactPlane) -> LineK
     pinion_speed
         [rad/s].
     plane
-        Plane of contact.
+        Plane of contact of the pair.
 
     Returns
     -------

@@ -132,7 +132,7 @@ def facet_bounds(roll: ArrayLike, flank: InvoluteFlank, count: int) -> tuple[_Ar
     roll
         Of a point of the flank [m], any shape; facets go on past the active profile.
     flank
-        The member's involute.
+        Involute flank of the member.
     count
         n_f, facets over the active profile [-].
 
@@ -169,7 +169,7 @@ def facet_depth(
     point
         Roll length of the involute's point at t, which chooses the facet [m]; shapes broadcast.
     flank
-        The member's involute.
+        Involute flank of the member.
     count
         n_f [-].
 

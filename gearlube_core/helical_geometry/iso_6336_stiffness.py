@@ -79,7 +79,7 @@ def iso_stiffness(
     Parameters
     ----------
     pair
-        External gears.
+        Pair of two external gears.
     line_load
         F_t K_A/b, tangential load over face width [N/m]; below 100 N/mm c' falls as its fourth
         root.
@@ -230,7 +230,7 @@ def iso_line_density(pair: HelicalPair, line_load: float = _LOW_LOAD) -> float:
     Parameters
     ----------
     pair
-        External gears.
+        Pair of two external gears.
     line_load
         See `tangential_line_load` [N/m]; the density is the same from 100 N/mm on, the default.
 

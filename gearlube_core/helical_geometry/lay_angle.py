@@ -39,7 +39,7 @@ def lay_angles(
     s
         Of A, from the pitch line along the line of action [m], any shape.
     pair
-        Gear pair, helical.
+        Helical gear pair, not spur.
     distance
         AB along the contact line [m]; the thesis takes 1 mm.
     form
@@ -110,9 +110,9 @@ def equal_radius_line(
     X
         Of the contact line, on the face z = +W/2 [m].
     pair
-        Gear pair.
+        Helical or spur gear pair.
     member
-        "pinion" or "gear".
+        Which member: "pinion" or "gear".
 
     Returns
     -------

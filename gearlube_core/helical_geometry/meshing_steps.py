@@ -27,7 +27,7 @@ def line_at_position(s_i: ArrayLike, pair: HelicalPair) -> Array:
     s_i
         From the pitch line along the line of action [m], any shape: [jamali_2015 sec. 2.2.1].
     pair
-        Gear pair.
+        Helical or spur gear pair.
 
     Returns
     -------

@@ -218,7 +218,7 @@ class FlankModification:
         z
             From mid-face [m]; shapes broadcast.
         flank
-            The member's.
+            Involute flank of the member.
 
         Returns
         -------

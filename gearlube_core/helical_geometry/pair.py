@@ -49,7 +49,7 @@ class HelicalPair:
     Parameters
     ----------
     name : str
-        Label of results.
+        Name of the pair in results.
     pinion_teeth, gear_teeth : int
         [-]
     normal_module : float

@@ -147,7 +147,7 @@ def contact_line_gap(modified: ModifiedPair, X: float, y: ArrayLike) -> ContactL
     Parameters
     ----------
     modified
-        Modified pair.
+        Pair with its flank modifications.
     X
         Of the line, on the face z = +W/2 [m].
     y

@@ -59,7 +59,7 @@ def housing_motion(
     damping_ratio : float
         Of the elastic modes [-], where the model has no damping.
     name : str
-        In errors.
+        Name used in error messages.
 
     Raises
     ------

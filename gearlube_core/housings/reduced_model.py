@@ -48,7 +48,7 @@ class ReducedModel:
     Parameters
     ----------
     stiffness, mass : ndarray of shape (n, n)
-        Symmetric.
+        Symmetric matrices in the model's units.
     damping : ndarray of shape (n, n), optional
     nodes : sequence of InterfaceNode
     owner : ndarray of shape (n,)

@@ -166,12 +166,12 @@ def find_contact(
         u [m], th, ph [rad] of the gear, the same of the pinion, rotation of the pinion about its
         work axis [rad]; start on entry, solution on return.
     rows : ndarray of shape (7, 8)
-        Workspace.
+        Scratch memory, its values are lost.
 
     Returns
     -------
     int
-        TOUCHING or APART.
+        Outcome: `TOUCHING` or `APART`.
 
     References
     ----------
@@ -228,7 +228,7 @@ def trace_contact(
     found : ndarray of shape (N, 7)
         Contacts on return; rows after the first failure stay as they are.
     rows : ndarray of shape (7, 8)
-        Workspace.
+        Scratch memory, its values are lost.
     """
     x = start
     here = start_turn

@@ -66,7 +66,7 @@ def intersect_line(
     Returns
     -------
     int
-        HIT or MISSED.
+        Outcome: `HIT` or `MISSED`.
     """
     for _ in range(_ITERATIONS):
         s = cut_state(motion, parameters[0], parameters[1], parameters[2])

@@ -65,7 +65,7 @@ class Design:
     relief : ChosenRelief
     fit : Fit
     warnings : tuple of str
-        About the blank.
+        Warnings about the gear blank.
     """
 
     designed: DesignedBlank

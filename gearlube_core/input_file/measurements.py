@@ -73,7 +73,7 @@ class Measurements:
     Parameters
     ----------
     path : str
-        Of the table.
+        Path of the measured table.
     kind : str
         Key of `KINDS`.
     lines : ndarray of int, shape (n,)

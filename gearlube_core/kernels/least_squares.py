@@ -31,9 +31,9 @@ def least_squares(
     matrix : ndarray of shape (rows * columns,)
         A row by row; overwritten. Should be scaled, so that its numbers compare.
     rows, columns : int
-        Of any numbers.
+        Numbers of equations and unknowns.
     right : ndarray of shape (rows,)
-        b.
+        Right-hand side b of the equations.
     x : ndarray of shape (columns,)
     work : ndarray of shape (>= least_squares_work(columns),)
 

@@ -17,7 +17,7 @@ def factorise(matrix: Array, n: int, order: Array) -> float:
     matrix : ndarray of shape (n * n,)
         Row by row; should be scaled, so that its numbers compare. On return the factors.
     n : int
-        Rows.
+        Number of rows and columns.
     order : ndarray of shape (n,)
         On return the row that stands in each place.
 

@@ -22,9 +22,9 @@ def spectral_radius(matrix: Array, n: int, square: Array) -> float:
     matrix : ndarray of shape (n * n,)
         Row by row; overwritten.
     n : int
-        Rows.
+        Number of rows and columns.
     square : ndarray of shape (n * n,)
-        Work space.
+        Scratch memory, its values are lost.
     """
     logarithm = 0.0
     exponent = 1.0

@@ -22,7 +22,7 @@ def symmetric_modes(matrix: Array, n: int, vectors: Array) -> None:
     matrix : ndarray of shape (n * n,)
         Row by row; overwritten.
     n : int
-        Rows.
+        Number of rows and columns.
     vectors : ndarray of shape (n * n,)
         Eigenvector k, of length 1, is row k.
 

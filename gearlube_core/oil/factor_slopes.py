@@ -131,7 +131,7 @@ def factor_slopes(law: Any, sigma_s: float, sigma_r: float, a: float, limit: flo
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     sigma_s, sigma_r, a, limit
         As in `shear_flow`.
 

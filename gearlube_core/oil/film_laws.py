@@ -47,7 +47,7 @@ def density_ratio(law: Any, p: float) -> tuple[float, float, float]:
     Parameters
     ----------
     law
-        Density law.
+        Density law of the oil.
     p
         Gauge pressure [Pa]; below zero too, where an iteration may look.
 
@@ -102,7 +102,7 @@ def log_viscosity(law: Any, p: float, cooling: float) -> tuple[float, float]:
     Parameters
     ----------
     law
-        Viscosity law.
+        Viscosity law of the oil.
     p
         Gauge pressure [Pa]; below zero too, where an iteration may look.
     cooling
@@ -162,7 +162,7 @@ def rate_ratio(law: Any, q: float) -> tuple[float, float]:
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     q
         Square of the amount of the stress over tau0 [-].
 

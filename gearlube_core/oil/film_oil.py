@@ -136,7 +136,7 @@ def stress_ratio(oil: FilmOil, p: float, cooling: float) -> tuple[float, float]:
     Parameters
     ----------
     oil
-        In SI.
+        Oil of the film, in SI.
     p
         Gauge pressure [Pa].
     cooling

@@ -123,7 +123,7 @@ def houpert_log_viscosity(law: HoupertParameters, pressure: float, temperature: 
     Parameters
     ----------
     law
-        Of one oil.
+        Constants of the law for one oil.
     pressure
         Gauge pressure p [Pa].
     temperature
@@ -162,7 +162,7 @@ def houpert_temperature_coefficient(
     Parameters
     ----------
     law
-        Of one oil.
+        Constants of the law for one oil.
     log_viscosity
         ln eta + 9.67 at the pressure and temperature of interest [-].
     temperature

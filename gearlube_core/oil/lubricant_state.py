@@ -82,7 +82,7 @@ def lubricant_state(
     Returns
     -------
     LubricantState
-        SI throughout.
+        Numbers of the oil, in SI units.
 
     Notes
     -----

@@ -65,7 +65,7 @@ def rate_ratios(law: Any, q: np.ndarray, G: np.ndarray, slope: np.ndarray) -> No
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     q : ndarray, shape (n,)
         Square of the amount of the stress over tau0 [-].
     G, slope : ndarray, shape (n,)
@@ -188,7 +188,7 @@ def balance_block(law: Any, b: ShearBlock, n: int, first: int, last: int) -> Non
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     b
         With `sigma_s`, `sigma_r` and `a` of either sign; `stress_s`, `stress_r` and the factors
         `along[0]` and `across[0]` are written. `stress_s` is NaN where none was found.

@@ -298,7 +298,7 @@ def shear_flow(law: Any, sigma_s: float, sigma_r: float, a: float, limit: float)
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     sigma_s, sigma_r
         Stress drop over half the film, h (dp/ds)/(2 tau0) and the like along r [-].
     a

@@ -85,7 +85,7 @@ def flow_factor(law: Any, sigma: float, a: float) -> tuple[float, float, float]:
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     sigma
         Stress drop over half the film, h (dp/dx)/(2 tau0) [-], either sign.
     a
@@ -124,7 +124,7 @@ def layered_stress(law: Any, eta: np.ndarray, h: float, slope: float, sliding: f
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     eta : ndarray, shape (m,)
         Viscosity at even heights from body 1 to body 2 [Pa s].
     h, slope

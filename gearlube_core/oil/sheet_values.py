@@ -147,7 +147,7 @@ def secant_coefficient(base_oil: str, nu: float) -> float:
     Parameters
     ----------
     base_oil : {"mineral", "pao", "ester", "pag"}
-        Mineral: paraffinic.
+        Kind of base oil; mineral means paraffinic.
     nu : float
         Kinematic viscosity at atmospheric pressure and the temperature of interest [m2/s].
 

@@ -84,9 +84,9 @@ class Branch:
     Parameters
     ----------
     parameter : ndarray, shape (n,)
-        p.
+        Parameter p of each point.
     unknowns : ndarray, shape (n, m)
-        z.
+        Unknowns z of each point.
     multipliers : ndarray of complex, shape (n, k)
         Floquet multipliers, largest first, without trivial ones.
     stable : ndarray of bool, shape (n,)

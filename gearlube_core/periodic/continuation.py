@@ -33,7 +33,7 @@ class _Recorder:
     arc
         Finds points between two others.
     start
-        First point.
+        First point of the branch.
     values
         Scaled parameters at which rows are wanted.
     tolerance
@@ -199,7 +199,7 @@ def follow(
     at
         Values of p at which the branch shall have rows, `Branch.at` finds them.
     settings
-        Lengths and limits.
+        Step lengths and limits.
     progress
         Called after each step with the number of rows and p. KeyboardInterrupt, raised there or
         anywhere else, ends the branch with what was found.

@@ -76,11 +76,11 @@ def correct(
     Parameters
     ----------
     problem
-        Equations and scales.
+        Equations and scales of the unknowns.
     start, normal : ndarray, shape (m + 1,)
         Scaled place to start from and direction [-] without change.
     settings
-        Tolerance and limits.
+        Tolerance and limits of Newton's method.
 
     Notes
     -----
@@ -142,7 +142,7 @@ class ArclengthCorrector:
     Parameters
     ----------
     problem
-        Equations and scales.
+        Equations and scales of the unknowns.
     settings
         Tolerance and limits of Newton's method.
     """

@@ -90,7 +90,7 @@ def solve_periodic(
     Parameters
     ----------
     problem
-        Equations and scales.
+        Equations and scales of the unknowns.
     start : ndarray, shape (m,)
         Unknowns to start from. Of several coexisting motions, the start decides.
     parameter

@@ -37,7 +37,7 @@ class BevelMesh(Checked):
         "drive" or "coast". Coast takes the formulas with the other sign of the limit pressure
         angle, which is not checked against the source.
     profile_crowning
-        "low" or "high".
+        Profile crowning: "low" or "high".
 
     Examples
     --------

@@ -292,7 +292,7 @@ def member_attributes(blank: HypoidBlank, role: str) -> dict[str, tuple[str, flo
     ----------
     blank : HypoidBlank
     role : str
-        "pinion" or "gear".
+        Which member: "pinion" or "gear".
     """
     member = getattr(blank, role)
     dedendum = blank.pinion_dedendum if role == "pinion" else blank.gear_dedendum

@@ -255,7 +255,7 @@ def extremes(signal: Array, refine: int = 1) -> Extremes:
     Parameters
     ----------
     signal : array
-        Samples, shape (n,).
+        Equally spaced samples, shape (n,).
     refine : int
         Points read per sample [-].
     """

@@ -131,7 +131,7 @@ class ExtrudedProfile:
     Parameters
     ----------
     profile
-        Periodic profile.
+        Profile that repeats along x.
     lay
         Lay with the same period.
 
@@ -256,7 +256,7 @@ def periodic_section(profile: Profile, start: float, length: float) -> Profile:
     Parameters
     ----------
     profile
-        Levelled profile.
+        Profile whose slope was removed.
     start
         Where the part begins [m].
     length

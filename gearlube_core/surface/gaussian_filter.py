@@ -29,7 +29,7 @@ def levelled(surface: S, degree: int = 1) -> S:
     Parameters
     ----------
     surface
-        Profile or map.
+        Measured profile or map.
     degree
         Degree of the polynomial, to 8. 0: the mean; 1: a line or plane; of a map in x and y
         together. Along periodic sides the degree is always 0, because they have no slope.

@@ -157,7 +157,7 @@ class Reached:
     Parameters
     ----------
     name, unit
-        "m" or "1".
+        Name of the statistic and its unit, "m" or "1".
     asked, reached
         [unit].
     """
@@ -177,7 +177,7 @@ class Generated(Generic[S]):
     surface
         Periodic profile or map, its mean zero.
     statistics
-        Each asked one.
+        Each statistic that was asked for.
     band
         Shortest and longest wave that it holds [m].
     notes
@@ -198,7 +198,7 @@ def generated_profile(
     Parameters
     ----------
     request
-        Wanted statistics.
+        Statistics that the surface should have.
     period
         Length of a period [m].
     count
@@ -237,7 +237,7 @@ def generated_map(
     Parameters
     ----------
     request
-        Wanted statistics.
+        Statistics that the surface should have.
     periods
         Lengths of a period along x and y [m].
     counts

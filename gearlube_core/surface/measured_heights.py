@@ -38,7 +38,7 @@ class MeasuredProfile:
     height
         (n,) [m].
     name
-        In errors.
+        Name used in error messages.
 
     Raises
     ------
@@ -76,7 +76,7 @@ class MeasuredMap:
     height
         (nx, ny) [m].
     name
-        In errors.
+        Name used in error messages.
 
     Raises
     ------

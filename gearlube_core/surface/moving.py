@@ -190,7 +190,7 @@ class MovingRoughness:
     y
         Rows [m], shape (ny,): evenly over the width, without the row that repeats the first one.
     schedule
-        Time steps.
+        Times and steps of the march.
     feed
         How the smooth contact becomes rough; None: rough at all times.
 

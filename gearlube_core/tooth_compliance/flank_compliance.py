@@ -111,11 +111,11 @@ def tooth_compliance(
     Parameters
     ----------
     geometry
-        Tooth and rim.
+        Geometry of tooth and rim.
     solid
         Linear elastic and isotropic.
     settings
-        Hats and elements.
+        Numbers of hat functions and elements.
 
     Raises
     ------
@@ -248,7 +248,7 @@ def half_space_compliance(flank: Flank, s_nodes: Array, t_nodes: Array, solid: S
     s_nodes, t_nodes
         Parameters of the hats' centres [-].
     solid
-        Elastic constants.
+        Elastic constants of the tooth.
 
     References
     ----------

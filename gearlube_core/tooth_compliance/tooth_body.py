@@ -68,7 +68,7 @@ def members_compliance(
     Parameters
     ----------
     teeth
-        By member.
+        Tooth geometry of each member.
     settings
         Solid and condensation are read here.
     cache

@@ -49,7 +49,7 @@ class ToothGeometry:
     axis_point, axis_direction
         A point [m] and the direction of the gear's axis, (3,).
     teeth
-        Number of teeth.
+        Number of teeth [-].
     slot_depth
         Depth of the slot's bottom below the root lines of the flanks [m]; the root fillet
         takes it up.
@@ -196,7 +196,7 @@ def half_section(
     Parameters
     ----------
     geometry
-        The tooth.
+        Geometry of the tooth.
     side
         `left` or `right`.
     s, t

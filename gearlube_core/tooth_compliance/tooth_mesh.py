@@ -312,7 +312,7 @@ def energy_products(matrix: csr_array, loads: Array, layer: Indices) -> Array:
     matrix
         K, sparse (n, n); entries between layers more than one apart must be zero.
     loads
-        F, (n, r).
+        Loads F, shape (n, r).
     layer
         Layer of each unknown, from 0 upwards, (n,).
 

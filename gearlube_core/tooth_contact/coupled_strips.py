@@ -182,7 +182,7 @@ def solve_coupled(
     Parameters
     ----------
     strips
-        At least one.
+        Contact strips, at least one.
     stiffness
         Of every pair of teeth alike.
     torque

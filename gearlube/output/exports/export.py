@@ -267,7 +267,7 @@ def chosen(
     ----------
     dataset : Dataset
     variables : iterable of str
-        Names; empty: all.
+        Names of variables to keep; empty: all.
     spans : mapping
         First and last value, both inside, by the name of a dimension or of a variable over one
         dimension. In the unit of the dataset; a dimension without values counts from 0.

@@ -23,7 +23,7 @@ class Record:
     Parameters
     ----------
     name : str
-        Of the variable.
+        Name of the recorded variable.
     meaning, unit : str
     axis, axis_unit : str
         Name and unit of the abscissa.

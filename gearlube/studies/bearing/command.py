@@ -78,7 +78,7 @@ def bearing(
             help="Temperature rise of the oil in the contacts above --temperature [K].", metavar="K"
         ),
     ] = 0.0,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_bearing"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_bearing"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

@@ -50,8 +50,8 @@ def calibrate(
             help="Runs of the axle for the emulator. Default: enough for the inputs.", metavar="N"
         ),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Random seed.")] = 1,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_calibrate"),
+    seed: Annotated[int, typer.Option(help="Seed of the random numbers.")] = 1,
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_calibrate"),
     overwrite: OverwriteOption = False,
 ) -> None:
     """Fit uncertain inputs of an axle to measured losses, and say what the data do not see.

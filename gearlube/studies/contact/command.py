@@ -67,7 +67,7 @@ def contact(
         float, typer.Option(help="Misalignment of the shaft angle, milliradians.", metavar="MRAD")
     ] = 0.0,
     jobs: JobsOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_contact"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_contact"),
     export: Annotated[
         bool,
         typer.Option(

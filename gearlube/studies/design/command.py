@@ -34,7 +34,7 @@ def design(
         ),
     ] = False,
     jobs: JobsOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_design"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_design"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

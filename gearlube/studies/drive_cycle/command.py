@@ -79,7 +79,7 @@ def drive_cycle(
             help="f0 and f1 of the file come from measured torques: smaller error bars.",
         ),
     ] = False,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_cycle"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_cycle"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

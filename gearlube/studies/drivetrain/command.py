@@ -84,7 +84,9 @@ def drivetrain(
         float | None,
         typer.Option(help="Share of the cycle's braking that the train does, 0 to 1; default: 1."),
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_drivetrain"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path(
+        "gearlube_drivetrain"
+    ),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

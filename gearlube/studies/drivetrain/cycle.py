@@ -109,6 +109,7 @@ def train_cycle(
     folder : Path, optional
         Folder for FILE, tables and the map, which a stopped cycle goes on from.
     progress : callable, optional
+        Receives the share done [-] and a sentence.
 
     Returns
     -------

@@ -99,7 +99,7 @@ def visited_contacts(
     Parameters
     ----------
     points
-        Of the run.
+        Speeds and torques of the pinion.
     axle
         Its mesh table and its oil.
     count, seed
@@ -201,7 +201,7 @@ def audit(
     Parameters
     ----------
     model
-        To judge.
+        The film model to judge.
     contacts
         Those outside its domain are counted and left out.
     progress

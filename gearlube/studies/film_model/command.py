@@ -128,8 +128,12 @@ def fit(
             metavar="MODEL",
         ),
     ] = None,
-    out: Annotated[Path, typer.Option(help="The model (.json).")] = Path("film_model.json"),
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace OUT.")] = False,
+    out: Annotated[Path, typer.Option(help="File for the model (.json).")] = Path(
+        "film_model.json"
+    ),
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace an existing OUT file.")
+    ] = False,
 ) -> None:
     """Fit a model to solved films: processes, net, bounds, test. Some minutes."""
     from gearlube.cli.study_run import progress_on

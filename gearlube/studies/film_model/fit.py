@@ -97,7 +97,7 @@ def fit_model(
     plan
         That they were solved for.
     settings
-        Of the net.
+        Layers and training of the net.
     name
         Of the model, for its provenance.
     state
@@ -311,7 +311,7 @@ def _provenance_of(
     grid_left
         What the grid's correction misses, rms of film and friction [-].
     box
-        Of the training.
+        Bounds of the training contacts.
     """
     kind = plan.kind
     sets = (*kind.training, "calibration", "fresh")

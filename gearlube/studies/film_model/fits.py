@@ -78,9 +78,9 @@ def fit_net(
     ----------
     inputs : ndarray, shape (n, N_GROUPS)
     targets : ndarray, shape (n, 2)
-        Of order one.
+        Scaled results, of order one.
     weights : ndarray, shape (n, 2)
-        Of the squares.
+        Weights of the squared errors.
     seed
         Of the first weights.
     steps
@@ -203,7 +203,7 @@ def fit_process(
     Parameters
     ----------
     groups, values
-        Of the fit.
+        Inputs and results to fit.
     noise
         First guess of the noise's variance over that of the values.
     smooth

@@ -63,11 +63,11 @@ class ContactKind:
     name
         As in `FilmModel.kind`.
     words
-        For the provenance.
+        Description kept as provenance.
     visited
         Name of the set of contacts that a machine visits.
     contact
-        NamedTuple of floats.
+        Class of the contact, a NamedTuple of floats.
     nodes, second
         Nodes of the grid, and of a second one that tells the error of the first.
     domain, trained

@@ -57,7 +57,7 @@ class FilmPlan:
         How many of the first contacts of each set are solved on the second grid as well. It tells
         the error of the first.
     seed
-        Of all draws.
+        Seed of all random draws.
 
     Examples
     --------

@@ -61,7 +61,7 @@ class SolveTable:
     path
         CSV file; made with the first row.
     kind
-        Of the contacts.
+        Kind of the solved contacts.
 
     Raises
     ------
@@ -144,7 +144,7 @@ def train(
     Parameters
     ----------
     plan
-        What to solve.
+        Contacts and films to solve.
     folder
         Of solves.csv and plan.json.
     pool

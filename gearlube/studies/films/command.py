@@ -40,7 +40,9 @@ def compare(
             metavar="N",
         ),
     ] = 0.0,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_compare"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path(
+        "gearlube_ehl_compare"
+    ),
     overwrite: OverwriteOption = False,
 ) -> None:
     """Draw largest pressures and smallest films of several marches over their steps.

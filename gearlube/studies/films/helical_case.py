@@ -185,7 +185,7 @@ def with_flanks(
     Parameters
     ----------
     file
-        Gear pair.
+        Gear file of the pair.
     facets
         In place of the involute; 0: none.
     crown_start_mm

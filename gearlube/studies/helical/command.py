@@ -139,10 +139,12 @@ def helical(
     roughness_um: RoughnessOption = 0.5,
     parts: Annotated[
         str,
-        typer.Option(help="What to run.", metavar="all|contact|dynamics|geometry|losses"),
+        typer.Option(
+            help="Part of the study to run.", metavar="all|contact|dynamics|geometry|losses"
+        ),
     ] = "all",
     jobs: JobsOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_helical"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_helical"),
     export: Annotated[
         bool,
         typer.Option("--export", help="Also write both flanks of a tooth of each gear (STEP)."),

@@ -84,7 +84,7 @@ def instability_map(
     parameters
         The pair, with linear contact.
     mesh_frequency, values
-        Axes.
+        Both axes of the map.
     axis
         What the values are.
     """

@@ -103,7 +103,7 @@ def loss_map(
             "1 N.m.",
         ),
     ] = False,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_map"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_map"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

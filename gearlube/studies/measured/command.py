@@ -115,7 +115,7 @@ def measured(
         ),
     ] = None,
     jobs: JobsOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_measured"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_measured"),
     overwrite: OverwriteOption = False,
     example: Annotated[
         Path | None,

@@ -42,7 +42,7 @@ def optimise(
         int, typer.Option(help="Mesh phases of the check by the plain analysis.", metavar="N")
     ] = 16,
     jobs: JobsOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_optimise"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_optimise"),
     example: Annotated[
         bool,
         typer.Option("--example", help="Print the shipped problem PROBLEM as a file, and stop."),

@@ -78,7 +78,7 @@ def resonance(
             metavar="RELATIVE",
         ),
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_resonance"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_resonance"),
     quick: Annotated[
         bool,
         typer.Option("--quick", help="Few frequencies and coarse steps, for a first look."),

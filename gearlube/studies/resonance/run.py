@@ -59,7 +59,7 @@ class _LoadBranch:
     special : ndarray of shape (k,)
         Torque at folds and bifurcations [N.m].
     special_unknowns : ndarray of shape (k, m)
-        z there.
+        Unknowns z at the special points.
     """
 
     problem: LoadProblem

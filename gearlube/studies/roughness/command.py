@@ -31,7 +31,7 @@ FileArgument = Annotated[
     str,
     typer.Argument(help="CSV, npz, NetCDF, SDF, X3P, SUR or AL3D file of heights.", metavar="FILE"),
 ]
-OutOption = Annotated[Path, typer.Option(help="Folder of results.")]
+OutOption = Annotated[Path, typer.Option(help="Folder for the results.")]
 PeaksOption = Annotated[
     float | None,
     typer.Option(
@@ -123,7 +123,7 @@ def make(
     lay_deg: Annotated[
         float, typer.Option(help="Direction of the crests of a map, from y towards x [deg].")
     ] = 0.0,
-    skewness: Annotated[float, typer.Option(help="Rsk or Ssk.")] = 0.0,
+    skewness: Annotated[float, typer.Option(help="Skewness Rsk or Ssk [-].")] = 0.0,
     kurtosis: Annotated[float, typer.Option(help="Rku or Sku; 3: normal.")] = 3.0,
     shortest_um: Annotated[
         float | None,

@@ -44,7 +44,9 @@ def flow_factors(
     contact: Annotated[
         bool, typer.Option("--contact/--no-contact", help="Also solve the dry elastic contact.")
     ] = True,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_flow_factors"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path(
+        "gearlube_flow_factors"
+    ),
     overwrite: OverwriteOption = False,
 ) -> None:
     """Solve Reynolds' equation on rough patches: flow factors, and asperity load, as a table."""

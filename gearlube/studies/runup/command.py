@@ -92,7 +92,7 @@ def runup(
         float | None,
         typer.Option(help="Order resolution, in orders of the pinion. Default: 0.25."),
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_runup"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_runup"),
     quick: Annotated[
         bool, typer.Option("--quick", help="A ramp of 10 s, for a first look.")
     ] = False,

@@ -69,7 +69,7 @@ def sound(
         ),
     ] = "all",
     field: Annotated[str, typer.Option(help="Sound field: free or diffuse.")] = "free",
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_sound"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_sound"),
     overwrite: OverwriteOption = False,
     example: Annotated[
         bool, prints_example(_example, "a transfer path of the hypoid axle (CSV; not measured)")

@@ -119,7 +119,7 @@ def sweep(
         str | None,
         typer.Option(help="Address of a running Dask scheduler instead of local processes."),
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_sweep"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_sweep"),
     quick: Annotated[
         bool, typer.Option("--quick", help="Few speeds and short records, for a first look.")
     ] = False,

@@ -71,7 +71,7 @@ def whine(
     ] = 0.03,
     positions: Annotated[int, typer.Option(help="Positions over a mesh period.", metavar="N")] = 16,
     jobs: JobsOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_whine"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_whine"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

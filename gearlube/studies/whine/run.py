@@ -51,7 +51,7 @@ class WhineSettings:
     speeds : tuple of float
         Mean pinion speeds [rad/s], rising, 1 to 5000.
     orders : tuple of int
-        Mesh orders.
+        Orders of the mesh frequency.
     pinion_inertia, gear_inertia : float
         Moments of inertia about the members' axes [kg m2]; default: those of the shipped pair.
     damping_ratio : float

@@ -101,7 +101,7 @@ def skf_torque(
     nu
         Kinematic viscosity of the oil [m2/s].
     p
-        Bearing.
+        Numbers of the roller bearing.
 
     Returns
     -------

@@ -75,7 +75,7 @@ def physical_loss(
     Parameters
     ----------
     b
-        Bearing.
+        Numbers of the roller bearing.
     settings
         Law, heating, inlet layer.
     loads : ndarray, shape (>= n_rollers,)

@@ -118,9 +118,9 @@ def race_rolling(
     speed
         u of rolling, above zero [m/s].
     oil
-        At the inlet.
+        Oil at the inlet temperature.
     solid
-        Roller and race.
+        Material of roller and race.
     inlet
         Of `model_inlet`.
     film_model : ndarray

@@ -59,7 +59,7 @@ def rib_friction(rib: RibParameters, load: float, speed: float, oil: LubricantSt
     Parameters
     ----------
     rib
-        Contact.
+        Contact of roller end and rib.
     load
         Q of the roller end [N], not negative.
     speed

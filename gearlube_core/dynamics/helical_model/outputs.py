@@ -189,7 +189,7 @@ def write_motion(s: Array, rates: Array, teeth: float, bearings: Array, out: Arr
     rates : ndarray
         Its rates; read before the first step only.
     teeth : float
-        Of the pinion.
+        Number of pinion teeth [-].
     bearings : ndarray of shape (N_BEARINGS * BEARING_FIELDS,)
         Shares of the bearings, see `write_bearing_shares`.
     out : ndarray of shape (len(OUTPUT_NAMES),)

@@ -169,7 +169,7 @@ def write_bearing_shares(given: Array, ratio: float, shares: Array) -> None:
     Parameters
     ----------
     given : ndarray
-        Flattened GivenPair.
+        A `GivenPair` as flat array.
     ratio : float
         Damping ratio of the supports [-].
     shares : ndarray

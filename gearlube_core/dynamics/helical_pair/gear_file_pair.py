@@ -193,7 +193,7 @@ def iso_mesh(pair: HelicalPair, pinion_torque: float | None = None) -> LineMesh:
     Parameters
     ----------
     pair
-        External gears.
+        Pair of two external gears.
     pinion_torque
         [N.m]; None: one at which the standard's density does not depend on it.
     """

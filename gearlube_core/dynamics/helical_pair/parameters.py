@@ -88,7 +88,7 @@ def effective_mass(pair: HelicalPair, pinion_inertia: float, gear_inertia: float
     Parameters
     ----------
     pair
-        Base radii.
+        Pair that gives the base radii.
     pinion_inertia, gear_inertia
         Polar [kg m2].
     """

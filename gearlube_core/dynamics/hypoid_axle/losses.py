@@ -70,7 +70,7 @@ class AxleLosses:
     exceeded : ndarray
         Sum of 1, 2, 4, ... for each range that was left, see `ranges.RANGE_OUTPUTS`.
     status : ndarray of int
-        Key of FAILURES.
+        Outcome of each point, a key of `FAILURES`.
     """
 
     power: Array
@@ -107,7 +107,7 @@ def axle_losses(
     Parameters
     ----------
     parameters
-        The axle.
+        Parameters of the hypoid axle.
     torques : ndarray of shape (n,)
         On the pinion from outside [N.m], within 1.5 times the mesh table; below 0 the wheels
         drive (coast).

@@ -293,9 +293,9 @@ def gather_motion(
     at, memory : tuple, ndarray
         Places and memory of the mesh.
     series : ndarray of shape (coefficients at a load,)
-        Work space.
+        Scratch memory, its values are lost.
     numbers, sizes
-        Of the train.
+        Packed numbers and sizes of the train.
     motion : ndarray of int
         Places of `MOTION_OUTPUTS`.
     """

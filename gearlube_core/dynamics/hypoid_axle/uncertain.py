@@ -35,7 +35,7 @@ class Uncertain:
     Parameters
     ----------
     name
-        Key.
+        Key of the uncertain input.
     words
         What it is, for figures and tables.
     factor

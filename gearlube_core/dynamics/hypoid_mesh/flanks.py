@@ -125,7 +125,7 @@ def flank_sum(
         of the friction over load [-], that of the power lost in friction [W], which
         is always computed, and the films at the nodes, see `state.keep_flank`.
     channels : ndarray of shape (N_CHANNELS,)
-        Work space.
+        Scratch memory, its values are lost.
     film_model : ndarray
         Numbers of the film model, or empty.
 

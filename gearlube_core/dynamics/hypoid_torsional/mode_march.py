@@ -262,7 +262,7 @@ def march(
     Parameters
     ----------
     y : ndarray of shape (4,)
-        Changed.
+        State of the pair, changed in place.
     first_period : int
         Mesh periods since pinion angle zero.
     periods : int

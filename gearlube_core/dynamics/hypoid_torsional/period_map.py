@@ -214,7 +214,7 @@ def period_map(
     Returns
     -------
     int
-        OK or NOT_FINITE.
+        Outcome: `OK` or `NOT_FINITE`.
     """
     trial = work[0:N_Y]
     between = work[N_Y:MARCH_WORK].reshape((3, N_ROW))

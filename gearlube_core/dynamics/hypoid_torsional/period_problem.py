@@ -60,7 +60,7 @@ class PeriodProblem:
     periods : int
         Mesh periods in one period of the motion.
     steps_per_mesh_period : int
-        Of the integrator.
+        Integration steps in a mesh period.
     packed : PackedMesh, optional
         See `HypoidTorsional`.
     """

@@ -176,7 +176,7 @@ def time_sweep(
     revolutions : int
         Of the pinion, in the record.
     steps_per_mesh_period : int
-        Of the integrator.
+        Integration steps in a mesh period.
 
     Raises
     ------

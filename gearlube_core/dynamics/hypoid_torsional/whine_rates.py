@@ -78,7 +78,7 @@ def whine_rates(
     speed : float
         Mean pinion speed [rad/s].
     orders : sequence of int
-        Of the mesh.
+        Orders of the mesh frequency.
     start : ndarray, optional
         Unknowns to start from, as those of a speed nearby; absent: static deflection.
     steps_per_mesh_period : int

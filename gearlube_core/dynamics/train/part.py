@@ -39,6 +39,7 @@ class Body:
     Parameters
     ----------
     name : str
+        Name in files and results.
     mass : float
         [kg]
     inertia, polar_inertia : float

@@ -39,7 +39,7 @@ def skew_factor(order: float, angle: float, steps: int = 0) -> float:
     Parameters
     ----------
     order : float
-        nu, per revolution.
+        Order nu, ripples a revolution [-].
     angle : float
         e, over the whole length; that of K steps is K times the angle from one to the next [rad].
     steps : int

@@ -129,7 +129,7 @@ class SteppedModel(MarchedTrain, Generic[Control]):
     ranges
         Of tables and formulas, in the order of `ranges.RANGE_OUTPUTS` without the first.
     words
-        For messages.
+        Terms used in error messages.
     holder
         Of the speed of the first port, a `HeldPort`; by default none.
     """

@@ -247,7 +247,7 @@ def steady_films(
     beta
         -d ln eta/dT of the oil at ambient pressure [1/K].
     settings
-        Stencil and tolerances.
+        Stencil and tolerances of the solver.
     keep
         Rows whose whole film is returned.
     progress

@@ -237,7 +237,7 @@ def flank_contact(
     contact_modulus
         E* [Pa].
     lubricant
-        As it flows.
+        Oil with its laws of flow.
     nodes
         Along the minor and along the major axis.
     oil_beyond

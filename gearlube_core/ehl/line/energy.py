@@ -86,13 +86,13 @@ def fill_shear(
     T
         Temperatures (n, m) at m heights from body 1 to body 2 [K].
     i
-        Node.
+        Number of the node.
     f
-        Film.
+        Film state along the line.
     sliding
         u2 - u1 [m/s].
     oil
-        Lubricant data.
+        Constants of the oil's laws.
     heat
         Filled, (m,) [W/m3].
 
@@ -260,7 +260,7 @@ def fill_thermal_oil(
     p, T, eta
         Pressure (n,) [Pa], temperatures (n, m) [K], viscosity to pressure flow (n,) [Pa s].
     oil
-        Lubricant data.
+        Constants of the oil's laws.
     cooling, dilation
         Filled (n,) [-].
     """

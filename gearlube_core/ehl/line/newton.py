@@ -118,7 +118,7 @@ def newton(
     tolerance : float
         Of `flow_residual`; the load is held to the same number.
     max_iterations : int
-        Newton steps.
+        Largest number of Newton steps.
 
     Returns
     -------

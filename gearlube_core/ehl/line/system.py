@@ -69,7 +69,7 @@ class LineDeflection:
     step : float
         Node spacing over the Hertz half width [-].
     count : int
-        Nodes.
+        Number of grid nodes.
 
     Notes
     -----
@@ -171,9 +171,9 @@ class LineSystem:
     problem : LineProblem
         Contact.
     nodes : int
-        Of the grid.
+        Number of grid nodes.
     stencil : str
-        Of the wedge.
+        Difference stencil of the wedge term.
     mass_conserving : bool
         True: void shares are unknowns where the film is broken.
     """

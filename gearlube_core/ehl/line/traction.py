@@ -35,7 +35,7 @@ def fill_mean_stress(
     sliding
         u2 - u1 [m/s].
     oil
-        Lubricant data.
+        Constants of the oil's laws.
     tau
         Filled, (n,) [Pa].
 

@@ -202,7 +202,7 @@ def check_repeats(heights: Gap, section: PointContactProblem) -> None:
     heights
         Of x and y [m].
     section
-        With closed sides.
+        Section of a case with closed sides.
 
     Raises
     ------

@@ -151,7 +151,7 @@ class FarField:
     contact_modulus
         E* [Pa].
     lubricant
-        Oil.
+        Oil of the contact, in SI.
     x_limits, y_limits
         Of the domain [m]; zero lies inside.
 

@@ -43,7 +43,7 @@ class PointLevel:
     scheme
         Makes the discrete Reynolds equation of a grid.
     cavitation
-        "reynolds" or "mass_conserving".
+        Cavitation model: "reynolds" or "mass_conserving".
 
     Attributes
     ----------
@@ -213,7 +213,7 @@ class PointLevel:
         Parameters
         ----------
         state
-            State.
+            Pressure and film state.
         squeeze
             Rate of rho h that is added, which the residual does not contain [-].
         rows : ndarray of bool, shape (ny, nx), or None

@@ -72,7 +72,7 @@ class Sides:
         Parameters
         ----------
         rows
-            Number of rows.
+            Number of grid rows across the flow.
         entrainment
             Along y [m/s].
         sliding

@@ -32,7 +32,7 @@ def limited_faces(
     Parameters
     ----------
     parameters
-        Of the grid.
+        Equation parameters of the grid.
     pressure, mass : ndarray, shape (ny, nx)
         p and rho h [-].
 

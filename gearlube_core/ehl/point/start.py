@@ -178,7 +178,7 @@ def thin_layer(
     layer
         That is asked for, over the unit of films [-].
     settings
-        Most steps.
+        Settings with the largest number of steps.
     record
         Takes up what was done.
 

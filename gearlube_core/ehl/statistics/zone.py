@@ -81,7 +81,7 @@ def weighted_percentiles(values: Array, areas: Array, percent: Array) -> Array:
     Parameters
     ----------
     values, areas
-        Shape (n,).
+        Values and their areas, shape (n,).
     percent
         [%], shape (m,).
     """

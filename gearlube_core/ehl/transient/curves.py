@@ -72,9 +72,9 @@ def film_row(columns: tuple[str, ...], solution: FilmSolution, **more: float) ->
     Parameters
     ----------
     columns
-        Names.
+        Names of the columns.
     solution
-        Film.
+        Solved film of one step.
     more
         Columns that do not follow from the film alone.
     """
@@ -108,7 +108,7 @@ class NumberedSteps:
     Parameters
     ----------
     first, last
-        Their numbers.
+        Numbers of first and last step.
     start_time
         Of the first step [s].
     step_time
@@ -181,7 +181,7 @@ def march_curves(
     Parameters
     ----------
     film
-        What changes.
+        Contact whose load and motion change.
     columns, row
         Names of the columns, and the numbers in them of a step and its film.
     steps

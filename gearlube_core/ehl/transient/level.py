@@ -135,7 +135,7 @@ def lifted(level: MovingLevel, state: FilmState, least: Array | float) -> FilmSt
     Parameters
     ----------
     level
-        Grid.
+        Grid level with its equations.
     state
         A trial; its film may be below zero.
     least : ndarray, shape (ny, nx), or float
@@ -172,7 +172,7 @@ def lifted_off_solids(level: MovingLevel, state: FilmState) -> FilmState:
     Parameters
     ----------
     level
-        Grid.
+        Grid level with its equations.
     state
         A trial; its film is above zero.
 

@@ -107,7 +107,7 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
     Parameters
     ----------
     level
-        Grid.
+        Grid level with its equations.
     state
         After a Newton step.
     size
@@ -265,7 +265,7 @@ def step_newton(
     lagged
         Preconditioner; renewed where it has become too slow.
     state
-        Predicted.
+        State as predicted for the step.
     tolerance, load_tolerance
         Limits of `flow_residual` and of the relative load error [-].
     most, most_krylov
@@ -274,7 +274,7 @@ def step_newton(
     Returns
     -------
     tuple
-        State and record.
+        Last state and record of the iteration.
 
     Notes
     -----

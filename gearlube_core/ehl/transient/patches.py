@@ -47,13 +47,13 @@ def fill_patch(
     offsets : ndarray of int, shape (m, 2), m >= k
         Steps to the neighbours along y and x.
     by_pressure, by_film : ndarray, shape (k, ny, nx)
-        Derivatives.
+        Derivatives by pressure and film.
     reach : ndarray of int, shape (ny + 2,)
         Of the sides: rows that hold those from one before the first to one behind the last.
     coefficients : ndarray
         Deflection under unit pressure on a cell by the number of rows and columns between.
     matrix : ndarray, shape (n, n)
-        Result.
+        Result: matrix of the patch.
     """
     nx = place.shape[1]
     for a in range(nodes.shape[0]):
@@ -95,7 +95,7 @@ def rest_of_patches(
     approach
         Of the solids, which is added to the deflection.
     rest : ndarray, shape (n,)
-        Result.
+        Result: residual of the patch.
     """
     nx = pressure.shape[1]
     for a in range(nodes.shape[0]):
@@ -115,7 +115,7 @@ class TouchingPatches:
     Parameters
     ----------
     grid
-        Uniform grid.
+        Grid with uniform spacing.
     linear
         Derivatives and touching nodes.
     """
@@ -164,7 +164,7 @@ def patch_numbers(touching: Flags, free: Flags, cyclic: bool) -> Any:
     touching, free : ndarray of bool, shape (ny, nx)
         Where solids touch, and where pressure is unknown; the first and last row hold nothing.
     cyclic
-        The others repeat.
+        True where rows repeat along y.
     """
     rows = touching.shape[0] - 2
     row = np.arange(-_BESIDE, rows + _BESIDE)

@@ -50,7 +50,7 @@ class WindowedDeflection:
     Parameters
     ----------
     grid
-        Grid.
+        Grid of this contact level.
     """
 
     def __init__(self, grid: PointGrid) -> None:
@@ -157,7 +157,7 @@ def fill_row_matrices(
     first : int
         Index of the first node of every row that the matrices hold.
     which : ndarray of int, shape (m,)
-        Rows.
+        Numbers of the rows to fill.
     matrices : ndarray, shape (m, n, n)
         Result, of n nodes from `first` on; zero on entry.
     """

@@ -97,11 +97,11 @@ def solve_steady_film(
     Parameters
     ----------
     film
-        What changes.
+        Contact whose load and motion change.
     time
         [s].
     settings
-        Stencil and tolerances.
+        Stencil and tolerances of the solver.
     film_error, most_nodes
         As in `solve_point_contact`.
     throw

@@ -126,7 +126,7 @@ def locate(motion: CuttingMotion, radius: float, axial: float, parameters: Array
     Returns
     -------
     int
-        CONVERGED or NOT_CONVERGED.
+        Outcome: `CONVERGED` or `NOT_CONVERGED`.
     """
     for _ in range(_ITERATIONS):
         s = cut_state(motion, parameters[0], parameters[1], parameters[2])

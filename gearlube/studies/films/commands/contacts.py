@@ -37,7 +37,7 @@ _SlideRoll = Annotated[
 ]
 _Cavitation = Annotated[
     str | None,
-    typer.Option(help="Cavitation model.", metavar="reynolds|mass_conserving"),
+    typer.Option(help="Model of the film rupture.", metavar="reynolds|mass_conserving"),
 ]
 _Temperature = Annotated[
     str | None,
@@ -56,8 +56,8 @@ def rough(
             help="Time steps to compute. Default: all. A later run continues.", metavar="N"
         ),
     ] = None,
-    nodes: Annotated[int | None, typer.Option(help="Nodes along x.", metavar="N")] = None,
-    rows: Annotated[int | None, typer.Option(help="Rows along y.", metavar="N")] = None,
+    nodes: Annotated[int | None, typer.Option(help="Number of nodes along x.", metavar="N")] = None,
+    rows: Annotated[int | None, typer.Option(help="Number of rows along y.", metavar="N")] = None,
     sides: Annotated[
         str | None, typer.Option(help="Boundary condition along y.", metavar="cyclic|no_flow")
     ] = None,
@@ -71,7 +71,7 @@ def rough(
     animation: Annotated[
         bool, typer.Option("--animation", help="Also write the stored films as animation.gif.")
     ] = False,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_rough"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_ehl_rough"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
@@ -136,7 +136,7 @@ def line(
     temperature: _Temperature = None,
     roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_line"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_ehl_line"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
@@ -188,7 +188,7 @@ def point(
     cavitation: _Cavitation = None,
     roughness_um: FilmRoughnessOption = None,
     film_error: FilmErrorOption = None,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_point"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_ehl_point"),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

@@ -53,7 +53,7 @@ def helical(
     speed_rpm: SpeedOfFileOption = None,
     oil: Annotated[
         str | None,
-        typer.Option(help="Shipped oil. Default: that of the gear file."),
+        typer.Option(help="Name of a shipped oil. Default: that of the gear file."),
     ] = None,
     oil_temperature: Annotated[
         float, typer.Option(help="Temperature of the shipped oil [degC].", metavar="DEGC")
@@ -117,7 +117,9 @@ def helical(
             metavar="embedded|repeat",
         ),
     ] = "embedded",
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_helical"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path(
+        "gearlube_ehl_helical"
+    ),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

@@ -48,7 +48,7 @@ def hypoid(
             metavar="mesh_table|moving_contact",
         ),
     ] = None,
-    oil: Annotated[str | None, typer.Option(help="Shipped oil.")] = None,
+    oil: Annotated[str | None, typer.Option(help="Name of a shipped oil.")] = None,
     oil_temperature: Annotated[
         float | None, typer.Option(help="Oil temperature [degC].", metavar="DEGC")
     ] = None,
@@ -88,7 +88,9 @@ def hypoid(
     quick: Annotated[
         bool, typer.Option("--quick", help="Few nodes and steps, for a first look.")
     ] = False,
-    out: Annotated[Path, typer.Option(help="Folder of results.")] = Path("gearlube_ehl_hypoid"),
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path(
+        "gearlube_ehl_hypoid"
+    ),
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:

@@ -39,7 +39,7 @@ def line_dataset(
     Parameters
     ----------
     solution
-        Isothermal or thermal.
+        Isothermal or thermal line film.
     name, source
         What figures call the contact, and where its numbers are from.
     seconds

@@ -144,7 +144,7 @@ def cycle_dataset(
     film
         The line through its cycle.
     cycle
-        Its curves.
+        Solved cycle with its curves.
     lines
         Pressure and film along the line at its steps.
     start
@@ -244,7 +244,7 @@ def helical_dataset(
     step
         Where the line is looked at [-].
     solution
-        Its film there.
+        Solved film at this line.
     name, source
         What figures call the pair, and where its numbers are from.
 

@@ -218,7 +218,7 @@ def hypoid_dataset(
     Parameters
     ----------
     flank
-        What was solved.
+        The flank that was solved.
     steady
         Steady films; those kept whole lie along `instant`.
     march

@@ -75,7 +75,7 @@ class HypoidFlank:
     Parameters
     ----------
     case
-        As given.
+        Case as the user gave it.
     parameters
         Axle, with table, oil and roughness.
     film

@@ -36,7 +36,7 @@ def save_rough_animation(
     path
         GIF file; it appears whole or not at all.
     per_second
-        Pictures a second.
+        Frame rate [1/s].
     dots_per_inch
         A picture is 8.5 by 7 inches.
     progress

@@ -50,7 +50,7 @@ def new_statistics(case: RoughCase, *, smooth: bool = True) -> RoughFilmStatisti
     Parameters
     ----------
     case
-        Case.
+        Case of the rough contact.
     smooth
         Solve the smooth film, for the lambda ratio.
     """
@@ -80,7 +80,7 @@ class Gathered:
     Parameters
     ----------
     case
-        Case.
+        Case of the rough contact.
     """
 
     def __init__(self, case: RoughCase) -> None:

@@ -56,11 +56,11 @@ def march_period(
     Parameters
     ----------
     system
-        n coordinates.
+        Linear system of n coordinates.
     period
         Of the mesh [s].
     samples
-        N, equally spaced.
+        N equally spaced samples a period.
     steps_per_oscillation
         Steps for one oscillation of the fastest motion; no step spans a kink or jump of the mesh.
     """

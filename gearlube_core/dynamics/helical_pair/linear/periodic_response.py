@@ -159,7 +159,7 @@ def periodic_response(
     pinion_speed
         Speed of the steady rotation [rad/s], above zero.
     settings
-        Resolution.
+        Resolution of the periodic response.
     throw
         True: raise an error if the pair is unstable; False: return its unstable periodic motion.
 

@@ -109,11 +109,11 @@ def replace_bearings(
     Parameters
     ----------
     given : ndarray
-        Flattened GivenPair.
+        A `GivenPair` as flat array.
     radial, axial, distance
         See `gear_file_march.ReplacedBearings`.
     replaced : ndarray
-        Flattened GivenPair.
+        The changed `GivenPair`, written.
     """
     pair: GivenPair = tuple_from_array(given, GivenPair)
     sound_pinion, pinion = replaced_body(pair.pinion, radial, axial, distance)

@@ -138,7 +138,7 @@ def march_separating(
         In: the start in the last column. Out: the end, and in the others its derivatives by the
         2n start states (q, v), the pinion torque [N.m] and the pinion speed [rad/s].
     periods
-        Mesh periods.
+        Number of mesh periods.
     torque, speed
         Of the pinion [N.m], [rad/s].
     period

@@ -245,7 +245,7 @@ class SeparationProblem:
         speed
             Of the pinion [rad/s].
         periods
-            Mesh periods.
+            Number of mesh periods.
         torque
             Of the pinion [N.m]; that of the parameters if left out.
         """

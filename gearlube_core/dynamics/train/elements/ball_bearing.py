@@ -38,7 +38,7 @@ class BallBearing(RingBearing):
     housing_x, housing_y, housing_z : float
         Middle of the bearing from the centre of the housing [m].
     n_balls : int
-        3 to 40.
+        Number of balls, 3 to 40.
     ball_diameter, pitch_diameter : float
         [m]
     inner_groove, outer_groove : float

@@ -28,7 +28,7 @@ class CylindricalBearing(RingBearing):
     name, body, housing, arm, housing_x, housing_y, housing_z
         As of `BallBearing`.
     n_rollers : int
-        3 to 40.
+        Number of rollers, 3 to 40.
     roller_diameter, roller_length, pitch_diameter : float
         The length is that of the contact [m].
     laminae : int

@@ -127,7 +127,7 @@ def force_at_load(
     Parameters
     ----------
     series : ndarray of shape (coefficients at a load,)
-        Work space.
+        Scratch memory, its values are lost.
     """
     table = table_in(at, memory)
     load, side = s[at[AT_KEPT] + KEPT_LOAD], s[at[AT_KEPT] + KEPT_SIDE]

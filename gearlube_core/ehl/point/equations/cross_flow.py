@@ -57,7 +57,7 @@ def add_cross_flow(
     pressure : ndarray, shape (ny, nx)
         p [-].
     cross
-        Of the nodes.
+        Factors of the cross flow at the nodes.
     residual : ndarray, shape (ny, nx)
         Of `reynolds_residual`; only inner nodes change.
 

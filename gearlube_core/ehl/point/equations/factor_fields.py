@@ -143,15 +143,15 @@ def fill_shear_factors(
     Parameters
     ----------
     law
-        Shear law.
+        Shear law of the oil.
     pressure, film, fluidity : ndarray, shape (ny, nx)
         p, h and 1/eta [-].
     units
-        Stresses and sliding.
+        Units of stress and sliding.
     rows
         First row that is filled and the one behind the last.
     work
-        Overwritten.
+        Scratch memory, its values are lost.
     along, across : ndarray, shape (ny, nx)
         Result: flow along and across sliding over its Newtonian value [-]; 1 on the border.
     stress : ndarray, shape (2, ny, nx)

@@ -81,7 +81,7 @@ class FilmShear:
             Spacing along x over half the distance between the neighbours of each column of
             nodes, shape (nx,) [-]; None: 1.
         sides
-            Of the rows.
+            Boundary conditions along y.
 
         Raises
         ------

@@ -55,7 +55,7 @@ def sum_neighbours(
     offsets : ndarray of int, shape (n, 2)
         Steps to the neighbours along y and x.
     weights : ndarray, shape (n,)
-        Of each.
+        Weight of each neighbour.
     period
         Rows after which values repeat; 0: never. Row 0 is then a copy.
     values, result : ndarray, shape (ny, nx)
@@ -90,7 +90,7 @@ class ShortDeflection:
     coefficients : ndarray, shape (rows, nx)
         Deflection under unit pressure on a cell so far away; of all rows where they repeat.
     sides
-        Of the rows.
+        Boundary conditions along y.
     halved
         Whether the next coarser grid has fewer rows, and fewer columns.
 
@@ -139,9 +139,9 @@ class ClosedDeflection:
     modes : ndarray, shape (nx, rows//2 + 1)
         From `periodic_modes`.
     sides
-        Of the rows.
+        Boundary conditions along y.
     rows
-        Without copied ones.
+        Number of rows without copied ones.
     single
         In float32, for preconditioners.
     workers

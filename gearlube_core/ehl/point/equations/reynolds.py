@@ -52,11 +52,11 @@ def reynolds_residual(
     Parameters
     ----------
     parameters, metric
-        Of the grid.
+        Equation parameters and spacing of the grid.
     pressure, mass, source : ndarray, shape (ny, nx)
         p, rho h, and what the squeeze term takes from earlier times [-].
     film_flow
-        Of the nodes.
+        Flow factors of the film at the nodes.
     residual : ndarray, shape (ny, nx)
         Result; zero on the border [-].
 
@@ -347,7 +347,7 @@ def apply_derivatives(
     reach : ndarray of int, shape (ny + 2,)
         Of the sides: rows that hold those from one before the first to one behind the last.
     pressure, film : ndarray, shape (ny, nx)
-        Changes.
+        Changes of pressure and film.
     result : ndarray, shape (ny, nx)
         Zero on the border and where rows are zero.
     """

@@ -41,7 +41,7 @@ class NewtonianFactors(NoCrossFlow):
     Parameters
     ----------
     shape
-        Rows and columns.
+        Numbers of rows and columns.
     """
 
     sheared = False  # the factors depend on the rise of pressure across their node

@@ -228,7 +228,7 @@ def add_rises(
     Parameters
     ----------
     slopes
-        Of the quantity.
+        Derivatives of the quantity.
     weight
         Derivative of the residual of the row by the quantity [-].
     j, i
@@ -238,7 +238,7 @@ def add_rises(
     row, column
         Node of the row.
     by_pressure : ndarray, shape (n, ny, nx)
-        Changed.
+        Derivatives by pressure, changed in place.
     """
     x, y = weight * slopes.by_rise_x[j, i], weight * slopes.by_rise_y[j, i]
     by_pressure[beside[0], row, column] += x

@@ -80,7 +80,7 @@ def take_off_long(
     done
         First coarse column that was not yet taken to the coarser rows and back.
     spare
-        Scratch memory.
+        Scratch memory, its values are lost.
     result : ndarray, shape (nx, rows + 2 HALO)
         Result; rows beyond both ends are left.
 
@@ -198,11 +198,11 @@ def descend(grid: ColumnGrid, part: tuple[int, int], spare: np.ndarray, below: n
     Parameters
     ----------
     grid
-        With line solutions.
+        Grid whose lines are solved.
     part
         First column of the coarser grid that is written and the one behind the last.
     spare : ndarray, shape (SPARE, rows + 2 HALO)
-        Scratch memory.
+        Scratch memory, its values are lost.
     below : ndarray, shape (coarse nx, coarse rows)
         Right-hand side of the coarser grid.
     """
@@ -326,7 +326,7 @@ def finish(
     Parameters
     ----------
     grid
-        With line solutions.
+        Grid whose lines are solved.
     part
         First column that is written and the one behind the last.
     fewer
@@ -334,7 +334,7 @@ def finish(
     bend
         Add to the film.
     spare : ndarray, shape (SPARE, rows + 2 HALO)
-        Scratch memory.
+        Scratch memory, its values are lost.
     """
     nx, rows = grid.free.shape
     reach = reach_along(grid.short_offsets) if bend else 0

@@ -221,7 +221,7 @@ def factor_rows(
     offsets, film_offsets : ndarray of int, shapes (n, 2) and (m, 2)
         Steps to the neighbours along y and x.
     by_pressure, by_film : ndarray, shapes (nx, n, rows) and (nx, m, rows)
-        Stencils.
+        Stencils: derivatives by pressure and film.
     free : ndarray, shape (nx, rows)
         1 where pressure is unknown; other nodes get the identity.
     local : ndarray, shape (3,)
@@ -233,7 +233,7 @@ def factor_rows(
     band : ndarray, shape (nx, 9, rows)
         Result: L and U, the reciprocal of the diagonal in its place.
     most : ndarray, shape (rows,)
-        Overwritten.
+        Scratch memory, its values are lost.
 
     Notes
     -----
@@ -280,7 +280,7 @@ def solve_rows(
     free, right : ndarray, shape (nx, rows)
         1 where pressure is unknown, else 0; right-hand side.
     scale
-        Of the solution.
+        Factor that scales the solution.
     along
         To the coarser grid.
     rows

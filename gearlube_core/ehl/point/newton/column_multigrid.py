@@ -131,7 +131,7 @@ class ColumnLevel:
     coarse
         Shape of the next coarser one, with copied rows.
     transfer
-        To that.
+        Transfer to the next coarser level.
     """
 
     def __init__(self, grid: PointGrid, coarse: tuple[int, int], transfer: Transfer) -> None:

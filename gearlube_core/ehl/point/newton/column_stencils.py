@@ -84,7 +84,7 @@ def reached_places(
     nodes, coarse
         Nodes of a row of both grids.
     reached : ndarray of bool, shape (25,)
-        Result.
+        Result: places that the stencil reaches.
     """
     reached[:] = False
     for to in range(coarse):
@@ -189,7 +189,7 @@ def weigh_places(
     Parameters
     ----------
     by_pressure, by_film : ndarray, shape (25, nx, rows)
-        Stencils.
+        Stencils: derivatives by pressure and film.
     used : ndarray of bool, shape (2, 25)
         Neighbours that they have, by pressure and by film.
     deflection
@@ -197,7 +197,7 @@ def weigh_places(
     stride
         Every so many-th node of a row is looked at.
     most : ndarray, shape (rows,)
-        Overwritten.
+        Scratch memory, its values are lost.
     weight : ndarray, shape (2, 25)
         Result, zero on entry: by pressure and by film. The neighbour that weighs most in the
         equation of its node adds 1.
@@ -244,7 +244,7 @@ def pack_column(
     Parameters
     ----------
     whole : ndarray, shape (25, nx, rows)
-        Stencils.
+        Stencils of all 25 places.
     used, kept : ndarray of bool, shape (25,)
         Neighbours that there are, and those that are kept; the node itself is one.
     i
@@ -299,7 +299,7 @@ def pack_and_coarsen(
     links
         To the coarser grid.
     by_pressure, by_film
-        Stencils.
+        Stencils: derivatives by pressure and film.
     part
         First column of the coarser grid and the one behind the last.
     """

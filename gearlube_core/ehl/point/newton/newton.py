@@ -51,11 +51,11 @@ def flexible_gmres(
     inverse
         Approximate inverse, applied from the right; may change between calls.
     field, number
-        Right-hand side.
+        Right-hand side: field and number.
     tolerance
         Relative residual to stop at [-].
     most
-        Most iterations.
+        Largest number of iterations.
     weight
         Of the number's residual beside those of the field [-].
 
@@ -161,7 +161,7 @@ def newton(
     hierarchy
         Grids; the finest one is solved.
     state
-        Start on it.
+        State where the iteration starts.
     tolerance, load_tolerance
         Limits of `flow_residual` and of the relative load error [-].
     most, most_krylov
@@ -172,7 +172,7 @@ def newton(
     Returns
     -------
     tuple
-        State and record.
+        Last state and record of the iteration.
 
     Notes
     -----

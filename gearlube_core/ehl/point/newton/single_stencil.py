@@ -153,19 +153,19 @@ def subtract_stencil(
     Parameters
     ----------
     right : ndarray, shape (ny, nx)
-        Right-hand side.
+        Right-hand side of the equations.
     offsets, film_offsets : ndarray of int, shapes (n, 2) and (m, 2)
         Steps to the neighbours along y and x.
     by_pressure, by_film : ndarray, shapes (n, ny, nx) and (m, ny, nx)
-        Derivatives.
+        Derivatives by pressure and film.
     pressure, film : ndarray, shape (ny, nx)
-        Changes.
+        Changes of pressure and film.
     period
         Rows after which neighbours repeat; 0: never. Row 0 is then a copy.
     rows
         First row that is written and the one behind the last.
     rest : ndarray, shape (ny, nx)
-        Result.
+        Result: right side minus product.
     """
     for j in range(rows[0], rows[1]):
         row = rest[j]

@@ -103,11 +103,11 @@ def solve_bands(
     factors : ndarray, shape (n, 2 _BELOW + _ABOVE + 1)
         Transposed band storage of L and U, the reciprocal of the diagonal in its place.
     pivots : ndarray of int, shape (n,)
-        Rows exchanged.
+        Numbers of the exchanged rows.
     free : ndarray of bool, shape (n,)
         Other nodes have zero on the right and in the result.
     scale
-        Of the result.
+        Factor that scales the result.
     begin, end
         First node of the rows that are solved and the one behind their last; rows do not feel
         each other.

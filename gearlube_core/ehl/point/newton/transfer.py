@@ -157,7 +157,7 @@ def grid_shapes(
     steps
         Its spacings (dy, dx).
     sides
-        Of the rows.
+        Boundary conditions along y.
     """
     shapes = [nodes]
     counts, spacing = list(nodes), list(steps)

@@ -64,7 +64,7 @@ def wave_deflection(grid: PointGrid | TransposedGrid, wave_number: float | Array
     Parameters
     ----------
     grid
-        Grid.
+        Grid of this contact level.
     wave_number
         k of the wave across the rows, above zero; on a graded grid also one for every node,
         shape (nx,).

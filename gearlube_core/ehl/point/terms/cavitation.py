@@ -53,7 +53,7 @@ def wedge_face(
     Parameters
     ----------
     parameters
-        Of the grid.
+        Equation parameters of the grid.
     along
         The face across x; else that across y.
     pressure, ruptured, carried : ndarray, shape (ny, nx)
@@ -108,7 +108,7 @@ def fill_ruptured_nodes(
     Parameters
     ----------
     parameters, metric
-        Of the grid.
+        Equation parameters and spacing of the grid.
     pressure : ndarray, shape (ny, nx)
         p [-].
     blend
@@ -200,7 +200,7 @@ def add_fill_derivatives(
     rows : ndarray of bool, shape (ny, nx)
         Nodes whose derivatives are wanted.
     by_pressure, by_film : ndarray, shape (n, ny, nx)
-        Changed.
+        Derivatives by pressure and film, changed.
     """
     density, density_slope, film = full
     ny, nx = film.shape
@@ -283,7 +283,7 @@ class MassConservingCavitation:
     full : ndarray of bool, shape (ny, nx)
         Ruptured nodes of a film that is not broken: none.
     metric
-        Of the grid.
+        Spacing factors of the grid.
     blend
         Pressure below which a node at an exit has its own stencil [-].
     inlet_layer

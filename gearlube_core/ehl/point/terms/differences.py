@@ -83,11 +83,11 @@ class Storage:
         Parameters
         ----------
         state
-            State.
+            Pressure and film state.
         rows : ndarray of bool, shape (ny, nx)
             Nodes whose derivatives are wanted.
         by_pressure, by_film : ndarray, shape (ny, nx)
-            Changed.
+            Derivatives by pressure and film, changed.
         """
         stored = np.where(rows, self.rate, 0.0)
         stored[[0, -1]] = 0.0
@@ -106,7 +106,7 @@ class Differences:
     Parameters
     ----------
     grid
-        Grid.
+        Grid of this contact level.
     """
 
     centre = CENTRE  # number of the node itself among its neighbours
@@ -129,7 +129,7 @@ class Differences:
         Parameters
         ----------
         stencil
-            Its constants.
+            Constants of the difference stencil.
         state
             Its `residual` is written.
         carried : ndarray, shape (ny, nx)
@@ -164,7 +164,7 @@ class Differences:
         entrainment : ndarray, shape (ny,)
             Of the rows, over that of the problem [-].
         storage
-            Of oil.
+            Term of stored oil, or None.
         """
         shear, flow, cross = state.shear, state.film_flow, state.shear.cross
         count = SHEARED_NEIGHBOURS if shear.sheared else NEIGHBOURS

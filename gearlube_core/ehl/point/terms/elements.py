@@ -63,7 +63,7 @@ def upwind_shares(
     Parameters
     ----------
     parameters
-        Of the grid.
+        Equation parameters of the grid.
     compliance
         K: film per pressure that alternates from node to node [-]; zero for no upwinding beside
         that of the weights.
@@ -211,7 +211,7 @@ def element_derivatives(
     parameters, pressure, flow
         As in `element_residual`.
     carried
-        Density and film.
+        Carried oil: density times film.
     slopes
         Of rho h^3/eta times the components of the flow factor tensor.
     compliance
@@ -301,7 +301,7 @@ class Elements:
     Parameters
     ----------
     grid
-        Uniform grid.
+        Grid with uniform spacing.
     compliance
         Deflection per pressure that sets the upwinding [-]; None: of waves of the length 2 d on a
         half-space, 2/(E* k), k = pi/d.

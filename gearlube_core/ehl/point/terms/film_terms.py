@@ -84,9 +84,9 @@ class OpenBorder(AmbientBorder):
     Parameters
     ----------
     problem
-        Contact and domain.
+        Contact and its domain.
     scales, shape
-        Of the grid.
+        Scales and shape of the grid.
     """
 
     def __init__(
@@ -201,11 +201,11 @@ class FilmTerms:
         problem, scales
             Contact and its units.
         grid
-            Grid.
+            Grid of this contact level.
         sliding
             Of an Eyring oil along the axes of the grid [m/s]; None: not given.
         cavitation
-            "reynolds" or "mass_conserving".
+            Cavitation model: "reynolds" or "mass_conserving".
         """
         full = np.zeros(grid.shape, dtype=np.bool_)
         breaks: Cavitation = ReynoldsCavitation(full)

@@ -79,15 +79,15 @@ def fill_heat(
     Parameters
     ----------
     film, T
-        Film and temperatures.
+        Film thickness and temperatures.
     sliding
         Amount of the sliding velocity [m/s].
     everywhere
         Stress also where the film is broken, for the friction; else zero.
     oil
-        Lubricant data.
+        Constants of the oil's laws.
     heat
-        Filled.
+        Heat of shear and compression, filled.
 
     Notes
     -----

@@ -205,7 +205,7 @@ class FilmTemperature:
     solids
         Body 1 and body 2.
     level
-        Grid.
+        Grid level with its equations.
     heights
         Points across the film.
 
