@@ -167,7 +167,7 @@ def command_line() -> str:
 
 
 def tell_findings(findings: Sequence[Finding], report: Path) -> None:
-    """Log all findings, warnings first and with their details, and the path of the report."""
+    """Log all findings, ranked, warnings with their details, and the path of the report."""
     read = ranked(findings)
     for one in read:
         if one.level == WARNING:

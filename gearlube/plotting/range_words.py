@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -45,19 +46,47 @@ def range_text(message: str) -> str:
     return re.sub(r"(?:range|film|bearing)\.\w+: (\w)", lambda found: found[1].upper(), text)
 
 
-def largest_block(inside: Array) -> tuple[slice, slice, slice] | None:
-    """Return the block with the most points of a grid in which all points are inside.
+def usable_words(inside: Array, axes: Sequence[tuple[Array, str]]) -> str:
+    """Return for which part of a grid results are usable, and for which not.
 
     Parameters
     ----------
-    inside : ndarray of bool, shape (n, m, k)
+    inside : ndarray of bool
+        No formula or table is left; one to three axes, with a point outside.
+    axes : sequence of (ndarray, str)
+        Ascending values and unit of each axis.
 
     Examples
     --------
-    >>> largest_block(np.array([[[True, True, False], [True, True, True]]]))
-    (slice(0, 1, None), slice(0, 2, None), slice(0, 2, None))
+    >>> inside = np.array([[True, True, False], [True, False, False]])
+    >>> usable_words(inside, [(np.array([40, 90]), "°C"), (np.array([50, 100, 150]), "N·m")])
+    'Usable for 40 °C, 50 to 100 N·m (33 % of the points), not for 150 N·m.'
     """
-    best, found = 0, None
+    block = _largest_block(inside.reshape((1,) * (3 - inside.ndim) + inside.shape))
+    if block is None:
+        return "Usable for no point."
+    parts = block[3 - inside.ndim :]
+    share = 100.0 * inside[parts].size / inside.size
+    good = [_span(values[part], unit) for part, (values, unit) in zip(parts, axes, strict=True)]
+    bad = []
+    for number, (values, unit) in enumerate(axes):
+        nowhere = ~inside.any(axis=tuple(i for i in range(inside.ndim) if i != number))
+        edges = np.flatnonzero(np.diff(nowhere)) + 1
+        runs = zip(np.split(values, edges), np.split(nowhere, edges), strict=True)
+        bad += [_span(run, unit) for run, out in runs if out[0]]
+    rest = f"not for {' or '.join(bad)}" if bad else "not for all points beyond"
+    return f"Usable for {', '.join(good)} ({share:.0f} % of the points), {rest}."
+
+
+def _span(values: Array, unit: str) -> str:
+    first, last = f"{values[0]:.4g}", f"{values[-1]:.4g}"
+    return f"{first} {unit}" if first == last else f"{first} to {last} {unit}"
+
+
+def _largest_block(inside: Array) -> tuple[slice, ...] | None:
+    """Return the block with the most points of a grid (n, m, k) in which all are inside."""
+    best = 0
+    found: tuple[slice, ...] | None = None
     n, m, _ = inside.shape
     for i in range(n):
         for j in range(m):

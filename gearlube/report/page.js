@@ -41,23 +41,44 @@
     toImageButtonOptions: {scale: 2},
     displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false,
   };
-  for (const plot of plots) {
-    const chart = report.charts[plot.dataset.figure];
-    const layout = {...chart.layout, template: look()};
-    await Plotly.newPlot(plot, {data: chart.data, layout, config, frames: chart.frames || []});
-  }
+  const drawn = new Set();
+  const draw = (plot, own) => {
+    drawn.add(plot);
+    const {data, layout, frames} = report.charts[plot.dataset.figure];
+    return Plotly.newPlot(
+      plot, {data, layout: {...layout, template: look(), ...own}, config, frames: frames || []});
+  };
+  const drawOpen = async () => {  // what is folded has no width yet
+    for (const plot of plots) {
+      if (plot.closest("details:not([open])")) continue;
+      await (drawn.has(plot) ? Plotly.Plots.resize(plot) : draw(plot));
+    }
+  };
+  const reveal = () => {  // a link leads to a folded figure
+    const aim = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const part = aim?.closest("details:not([open])");
+    if (!part) return;
+    part.open = true;
+    aim.scrollIntoView();
+  };
+  document.querySelectorAll(".more").forEach((part) => part.addEventListener("toggle", drawOpen));
+  addEventListener("hashchange", reveal);
+  await drawOpen();
+  reveal();
   document.body.dataset.drawn = "yes";
   dark.addEventListener("change", () => {
-    plots.forEach((plot) => Plotly.relayout(plot, {template: look()}));
+    drawn.forEach((plot) => Plotly.relayout(plot, {template: look()}));
   });
-  const heights = new Map(plots.map((plot) => [plot, plot.offsetHeight]));
+  const heights = new Map(plots.map((plot) => [plot, parseFloat(plot.style.height)]));
   const folded = [...document.querySelectorAll("details:not([open])")];
   addEventListener("beforeprint", () => {
     folded.forEach((part) => { part.open = true; });
     plots.forEach((plot) => {
       const height = Math.min(LOWER * heights.get(plot), HIGHEST);
       Object.assign(plot.style, {width: `${PRINTED}px`, height: `${height}px`});
-      Plotly.relayout(plot, {template: LIGHT, width: PRINTED, height});
+      const print = {template: LIGHT, width: PRINTED, height};
+      if (drawn.has(plot)) Plotly.relayout(plot, print);
+      else draw(plot, print);
     });
   });
   addEventListener("afterprint", () => {

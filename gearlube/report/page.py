@@ -10,11 +10,12 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
+from math import isnan
 from pathlib import Path
 from typing import Any
 
 from gearlube.report.numbers import column_texts, number_text, unit_words
-from gearlube.report.parts import GIVEN, Input, Report, Table, ranked
+from gearlube.report.parts import GIVEN, Input, Report, Table, main_and_rest, ranked
 from gearlube.report.stored import PAGE, as_data, as_json
 from gearlube_core import __version__
 from gearlube_core.storage.atomic_file import write_text
@@ -62,6 +63,8 @@ def report_html(report: Report, made: str = "") -> str:
     )
     made = made or _today()
     drawn = any(figure.chart is not None for figure in report.figures)
+    main, rest = main_and_rest(report)
+    figures = [_figure(number, one) for number, one in enumerate([*main, *rest], 1)]
     html = environment.get_template("page.html.j2").render(
         report=report,
         findings=ranked(report.findings),
@@ -76,8 +79,13 @@ def report_html(report: Report, made: str = "") -> str:
             {"title": r.title, "caption": r.caption, "wav": base64.b64encode(r.wav).decode("ascii")}
             for r in report.recordings
         ],
-        figures=[_figure(number, one) for number, one in enumerate(report.figures, 1)],
-        numbers=[(n.name, number_text(n.value, n.digits), n.unit) for n in report.numbers],
+        figures=figures[: len(main)],
+        folded=figures[len(main) :],
+        numbers=[
+            (one.name, number_text(one.value, one.digits), one.unit)
+            for one in report.numbers
+            if not isnan(one.value)
+        ],
         tables=[_table(one) for one in report.tables],
         groups=_groups(report),
         versions=versions(),

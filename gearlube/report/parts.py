@@ -12,6 +12,7 @@ from gearlube_core.errors import ParameterError
 GOOD, NOTE, WARNING = "good", "note", "warning"
 LEVELS = (GOOD, NOTE, WARNING)
 GIVEN, INFERRED, ASSUMED = "given", "inferred", "assumed"
+_OPEN = 8  # figures of a report that are not folded, if the study names none
 
 Cell = str | float | int | None
 
@@ -44,14 +45,15 @@ class Finding:
 
 
 def ranked(findings: Sequence[Finding]) -> list[Finding]:
-    """Return findings as they are read: warnings first, then in the order of the study.
+    """Return findings as they are read: the answer, which is the first, then warnings, then others.
 
     Examples
     --------
-    >>> [one.level for one in ranked([Finding("good", "A."), Finding("warning", "B.")])]
-    ['warning', 'good']
+    >>> found = [Finding("note", "A."), Finding("good", "B."), Finding("warning", "C.")]
+    >>> [one.headline for one in ranked(found)]
+    ['A.', 'C.', 'B.']
     """
-    return sorted(findings, key=lambda one: one.level != WARNING)
+    return [*findings[:1], *sorted(findings[1:], key=lambda one: one.level != WARNING)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +65,7 @@ class Number:
     name : str
         The same words in every run of the study.
     value : float
-        In `unit`; NaN where there is none.
+        In `unit`; NaN where there is none: the page leaves it out.
     unit : str
         Everyday unit; "" for none.
     digits : int
@@ -186,10 +188,14 @@ class Report:
     title, subtitle : str
         What was studied; what was run, in one sentence.
     findings : sequence of Finding
-        The most important first; the page shows warnings before all others.
+        The first is the answer to the question of the study; it stays first, warnings follow.
     recordings : sequence of Recording
     numbers : sequence of Number
     figures : sequence of Figure
+        The most important first.
+    main_figures : sequence of str
+        Names of the figures that stand open, in this order; by default the first 8. The others are
+        folded.
     tables : sequence of Table
     inputs : sequence of Input
     limits : sequence of str
@@ -207,8 +213,17 @@ class Report:
     recordings: Sequence[Recording] = ()
     numbers: Sequence[Number] = ()
     figures: Sequence[Figure] = ()
+    main_figures: Sequence[str] = ()
     tables: Sequence[Table] = ()
     inputs: Sequence[Input] = ()
     limits: Sequence[str] = ()
     facts: Sequence[tuple[str, str]] = field(default=())
     files: Sequence[str] = ()
+
+
+def main_and_rest(report: Report) -> tuple[list[Figure], list[Figure]]:
+    """Return the figures of a report that stand open, and those that are folded."""
+    by_name = {one.name: one for one in report.figures}
+    main = [by_name[name] for name in report.main_figures if name in by_name]
+    main = main or list(report.figures[:_OPEN])
+    return main, [one for one in report.figures if one not in main]

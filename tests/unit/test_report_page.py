@@ -4,6 +4,7 @@ import base64
 import gzip
 import logging
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -78,6 +79,7 @@ def report():
         study="map",
         title="Losses <of> an axle",
         findings=[
+            Finding("note", "The loss is 123 W."),
             Finding("good", "Nothing left its range."),
             Finding("warning", "The film is 0.1 µm thin.", "Rough flanks touch & wear."),
         ],
@@ -135,9 +137,34 @@ def test_page_is_whole_and_says_units_date_versions_and_its_own_size(page, repor
     assert "gearlube map <axle>" in text
 
 
-def test_warnings_come_before_what_is_fine(page):
+def test_the_answer_comes_first_then_warnings(page):
     tree = lxml_html.document_fromstring(page)
-    assert tree.xpath("//ul[@class='findings']/li/@class") == ["warning", "good"]
+    assert tree.xpath("//ul[@class='findings']/li/@class") == ["note", "warning", "good"]
+
+
+def test_contents_lead_to_every_section_and_figure(page, report):
+    tree = lxml_html.document_fromstring(page)
+    places = tree.xpath("//section/@id") + [one.name for one in report.figures]
+    assert tree.xpath("//nav//a/@href") == [f"#{one}" for one in places]
+    assert set(places) <= set(tree.xpath("//@id"))
+
+
+@pytest.mark.parametrize(("main", "first"), [((), "levels"), (("bars", "gone", "cells"), "bars")])
+def test_main_figures_stand_open_and_the_others_are_folded(report, main, first):
+    many = [replace(one, name=f"{one.name}2") for one in report.figures]
+    figures = [*report.figures, *many]
+    whole = replace(report, figures=figures, main_figures=main)
+    section = lxml_html.document_fromstring(report_html(whole)).xpath("//section[@id='figures']")[0]
+    shown = section.xpath("./figure/@id")
+    assert shown[0] == first
+    assert len(shown) == (2 if main else 8)
+    folded = section.xpath("./details[not(@open)]/figure/@id")
+    assert sorted([*shown, *folded]) == sorted(one.name for one in figures)
+
+
+def test_a_key_number_without_a_value_has_no_tile(page):
+    tree = lxml_html.document_fromstring(page)
+    assert tree.xpath("//dl[@class='numbers']/div/dt/text()") == ["loss"]
 
 
 def test_plotly_lies_inside_once_and_whole(page):
@@ -238,8 +265,8 @@ def test_the_console_has_every_finding_of_the_report(caplog, tmp_path):
             [*told, Finding(WARNING, "Look.", "Law A left its range at 3 rpm.")], tmp_path
         )
     lines = [record.getMessage() for record in caplog.records]
-    assert lines[0] == "Look. Law A left its range at 3 rpm."
-    assert lines[1:-1] == [f"Note {i}." for i in range(9)]
+    assert lines[1] == "Look. Law A left its range at 3 rpm."
+    assert [lines[0], *lines[2:-1]] == [f"Note {i}." for i in range(9)]
 
 
 @pytest.mark.parametrize(

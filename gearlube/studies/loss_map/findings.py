@@ -7,7 +7,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.range_words import RANGE_WORDS, largest_block
+from gearlube.plotting.range_words import RANGE_WORDS, usable_words
 from gearlube.plotting.words import largest_losses
 from gearlube.report.churning import regime_findings
 from gearlube.report.films import (
@@ -47,14 +47,14 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         )
     not_modelled = Finding(NOTE, f"Not modelled: {dataset.attrs['not_modelled']}.")
     if failed < points:
-        found += [
-            *_best(dataset),
+        found = [
+            *_answer(dataset),
+            *found,
             *_largest(dataset),
             not_modelled,
             *_drag(dataset),
             *_churning(dataset),
             *_warmth(dataset),
-            *_uncertainty(dataset),
             *_film(dataset),
             *_heat(dataset),
             *_solved(dataset),
@@ -108,18 +108,27 @@ def _at(dataset: xr.Dataset, values: xr.DataArray, *, least: bool = False) -> xr
     return dataset.isel(filled.argmax(list(filled.dims), skipna=True))  # type: ignore[arg-type]
 
 
-def _best(dataset: xr.Dataset) -> list[Finding]:
+def _answer(dataset: xr.Dataset) -> list[Finding]:
+    """Say how efficient the axle is, and how sure that is."""
     efficiency = dataset["efficiency"]
     if not np.isfinite(efficiency.values).any():
         return []
     best = _at(dataset, efficiency)
+    known, why = ".", ""
+    if "loss_torque_low" in dataset:
+        low, high = (f"{100.0 * end:+.0f}".replace("-", "−") for end in _band(dataset))
+        known = f"; its losses are known to {low} to {high} % (95 %)."
+        parts = [
+            f"{input_words(name)} {100.0 * swing:.0f} %"
+            for name, swing in list(mean_swings(dataset).items())[:_NAMED]
+        ]
+        why = f" The uncertainty comes from: {', '.join(parts)}, each alone."
     return [
         Finding(
             NOTE,
-            f"The axle is at most {100.0 * float(best['efficiency']):.1f} % efficient, at "
-            f"{words_of(best)}.",
-            f"Over the map the mean is {100.0 * float(efficiency.mean()):.1f} %, where less than "
-            "half of the input is lost.",
+            f"The mean efficiency of the axle is {100.0 * float(efficiency.mean()):.1f} %{known}",
+            f"At best it is {100.0 * float(best['efficiency']):.1f} %, at {words_of(best)}. Points "
+            f"that lose over half of their input are left out.{why}",
         )
     ]
 
@@ -200,25 +209,6 @@ def _band(dataset: xr.Dataset) -> tuple[float, float]:
     return float(np.nanmean(low[good] / loss[good])) - 1.0, float(
         np.nanmean(high[good] / loss[good])
     ) - 1.0
-
-
-def _uncertainty(dataset: xr.Dataset) -> list[Finding]:
-    if "loss_torque_low" not in dataset:
-        return []
-    low, high = _band(dataset)
-    swings = mean_swings(dataset)
-    parts = ", ".join(
-        f"{input_words(name)} {100.0 * swing:.0f} %"
-        for name, swing in list(swings.items())[:_NAMED]
-    )
-    return [
-        Finding(
-            NOTE,
-            f"The loss is known to {100.0 * low:+.0f} to {100.0 * high:+.0f} % (95 %, mean over "
-            "the map).".replace("-", "−"),
-            f"Most of it comes from: {parts}, each alone.",
-        )
-    ]
 
 
 def _film(dataset: xr.Dataset) -> list[Finding]:
@@ -327,7 +317,10 @@ def _steady(dataset: xr.Dataset) -> list[Finding]:
 def _ranges(dataset: xr.Dataset) -> list[Finding]:
     if not dataset.attrs["ranges_left"]:
         return [Finding(GOOD, "No point left the range of a formula or table.")]
-    exceeded = np.nan_to_num(dataset["range_exceeded"].values).astype(int)
+    axes = (("torque", "N·m"), ("speed", "rpm"), ("temperature", "°C"))
+    left = dataset["range_exceeded"].transpose(*(name for name, _ in axes))
+    exceeded = np.nan_to_num(left.values).astype(int)
+    usable = usable_words(exceeded == 0, [(dataset[name].values, unit) for name, unit in axes])
     shares = [100.0 * float((exceeded >> bit & 1).mean()) for bit in range(len(RANGE_WORDS))]
     by_kind = sorted(zip(shares, RANGE_WORDS.values(), strict=True), reverse=True)
     parts = [
@@ -339,29 +332,11 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
         Finding(
             WARNING,
             f"{100.0 * float((exceeded > 0).mean()):.0f} % of the points are extrapolated. "
-            f"{_usable(dataset, exceeded == 0)}",
+            f"{usable}",
             f"Beyond a formula or table: {'; '.join(parts)} of the points. The error of these "
             "points is not in the error bars. The column range_exceeded of map.csv says which.",
         )
     ]
-
-
-def _usable(dataset: xr.Dataset, inside: Array) -> str:
-    """Return the largest block of the map without an extrapolated point, as a sentence."""
-    axes = ("temperature", "speed", "torque")
-    order = [dataset["range_exceeded"].dims.index(axis) for axis in axes]
-    block = largest_block(np.transpose(inside, order))
-    if block is None:
-        return "No part of the map is without them."
-    (cold, warm), (slow, fast), (low, high) = (
-        dataset[axis].values[[part.start, part.stop - 1]]
-        for axis, part in zip(axes, block, strict=True)
-    )
-    share = 100.0 * math.prod(part.stop - part.start for part in block) / inside.size
-    return (
-        f"The largest part without is {low:g} to {high:g} N·m, {slow:.0f} to {fast:.0f} rpm, "
-        f"{cold:.0f} to {warm:.0f} °C: {share:.0f} % of the points."
-    )
 
 
 def _least(values: xr.DataArray | Array) -> float:
