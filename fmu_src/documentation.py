@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from html import escape
 from pathlib import Path
@@ -53,14 +54,57 @@ def _sections(definition: Definition) -> Iterable[tuple[str, list[tuple[str, ...
         yield title, [row(v) for v in definition.variables if v.causality == causality]
 
 
+def _together(rows: Iterable[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Return rows in which those that differ by an index or an axis alone are one."""
+    merged: dict[tuple[str, ...], list[tuple[str, ...]]] = {}
+    for cells in rows:
+        name, text = cells[0], cells[-1]
+        if index := re.search(r"\[(\d+)\]", name):
+            name = name.replace(index[0], "[i]", 1)
+            text = re.sub(rf"\b{index[1]}\b", "i", text)
+        if axis := re.search(r"(?<=\.)[xyz](?=\)?$)", name):
+            name = f"{name[: axis.start()]}a{name[axis.end() :]}"
+            text = re.sub(rf"\b{axis[0]}\b", "a", text)
+        merged.setdefault((name, *cells[1:-1], text), []).append(cells)
+    shown = []
+    for (name, *between, text), members in merged.items():
+        if len(members) == 1:
+            shown += members
+            continue
+        if "[i]" in name:
+            text += f"; i = 1 to {len({cells[0].split(']')[0] for cells in members})}"
+        if re.search(r"\.a\)?$", name):
+            text += "; a = x, y, z" if any(".z" in cells[0] for cells in members) else "; a = x, y"
+        shown.append((name, *between, text))
+    return shown
+
+
 def variables_markdown(definition: Definition) -> str:
     """Return the variables as Markdown tables, one for each causality."""
     lines: list[str] = []
     for title, rows in _sections(definition):
-        lines += [f"### {title}", "", "| " + " | ".join(HEADINGS) + " |"]
-        lines += ["|" + "---|" * len(HEADINGS)]
-        lines += [f"| `{cells[0]}` | " + " | ".join(cells[1:]) + " |" for cells in rows]
+        rates = [cells for cells in rows if cells[0].startswith("der(")]
+        named = {cells[0] for cells in rows}
+        numbers = [
+            cells for cells in rows if cells[0].removesuffix(".number") in named - {cells[0]}
+        ]
+        shown = _together(cells for cells in rows if cells not in (*rates, *numbers))
+        used = [k for k in range(len(HEADINGS)) if any(cells[k] for cells in shown)]
+        lines += [f"### {title}", "", "| " + " | ".join(HEADINGS[k] for k in used) + " |"]
+        lines += ["|" + "---|" * len(used)]
+        for name, *others in shown:
+            cells = (f"`{name}`", *others)
+            lines += ["| " + " | ".join(cells[k] for k in used) + " |"]
         lines += [""]
+        if numbers:
+            lines += [
+                "Each enumeration `X` has an Integer parameter `X.number`: the number of the "
+                "value, from 1 on. Its start value 0 keeps the value of `X`.",
+                "",
+            ]
+        if rates:
+            names = ", ".join(f"`{cells[0]}`" for cells in _together(rates))
+            lines += [f"Time derivatives, for the same i and a: {names}.", ""]
     return "\n".join(lines)
 
 

@@ -28,7 +28,7 @@ from fmu_src.definition import Definition
 from fmu_src.native.build import NativeOptions
 
 STEPS, RATE = 64, 512
-SHOWN = ("pinion.speed", "mesh.dte", "friction.power_loss", "efficiency", "bearing[1].force.x")
+SHOWN = ("pinion.speed", "mesh.dte")
 EXCHANGE, PARTS = "ModelExchange", 8
 FMUSIM, FMIL, OMSIMULATOR = "0.0.39", "3.0", "3.0.0.post114"  # that were compiled
 SMALL = 1e-9  # of the largest output of a unit: below, a value is rounding
@@ -192,7 +192,12 @@ def cells_of(
             logger.info("%s: %s, FMI %s", job.fmu.stem, host.name, standard)
             if host.lacks or host.run is None:
                 cells.append(
-                    [host.name, standard, f"not run: {host.lacks}", *[""] * (5 + len(others))]
+                    [
+                        host.name,
+                        standard,
+                        f"not run: {host.lacks}",
+                        *[""] * (len(SHOWN) + len(others)),
+                    ]
                 )
                 continue
             its = scalars(job) if standard == "3.0" else job

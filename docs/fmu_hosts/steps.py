@@ -76,16 +76,16 @@ def main() -> None:
     parser.add_argument("--fmusim", metavar="PROGRAM")
     given = parser.parse_args()
     programs = {"fmusim": given.fmusim, "OMSimulator": shutil.which("OMSimulator")}
-    rows = []
+    rows: dict[tuple[str, ...], list[str]] = {}  # hosts by archive, kind and outcomes
     with tempfile.TemporaryDirectory() as name:
         for fmu in sorted(given.fmus.resolve().glob("*.fmu")):
-            told = fmpy.read_model_description(str(fmu))
-            kinds = {"cs": told.coSimulation, "me": told.modelExchange}
+            described = fmpy.read_model_description(str(fmu))
+            kinds = {"cs": described.coSimulation, "me": described.modelExchange}
             for kind in (kind for kind, there in kinds.items() if there is not None):
                 for host in ("FMPy", *programs):
-                    cells = [fmu.name, KINDS[kind], host]
+                    cells = []
                     for step, stop in STOPS.items():
-                        end = float(told.defaultExperiment.stopTime) if stop is None else stop
+                        end = float(described.defaultExperiment.stopTime) if stop is None else stop
                         if host == "FMPy":
                             good = in_fmpy(fmu, kind, step, end)
                         elif programs[host] is None:
@@ -94,9 +94,12 @@ def main() -> None:
                         else:
                             good = in_program(programs[host], fmu, kind, step, end, Path(name))
                         cells.append("yes" if good else "no")
-                    rows.append(cells)
+                    rows.setdefault((fmu.name, KINDS[kind], *cells), []).append(host)
     page = Page("fmu_hosts")
-    page.rows("Archive | Kind", rows)
+    page.rows(
+        "Archive | Kind",
+        [[*key[:2], ", ".join(on), *key[2:]] for key, on in rows.items()],
+    )
     page.write()
 
 
