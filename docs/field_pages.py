@@ -58,7 +58,7 @@ PAGES: dict[str, tuple[type[InputFile], ...]] = {
     "problem_file": (OptimisationFile,),
     "train_file": (TrainFile,),
 }
-_TABLE = re.compile(r"(?<=^### )(.*\n\n\| Field \| Unit \|.*\n.*\n)(?:\|.*\n)+", re.MULTILINE)
+_TABLE = re.compile(r"(?<=^### )(.*\n\n\| Field \| Value \|.*\n.*\n)(?:\|.*\n)+", re.MULTILINE)
 _CLASS = "by class"
 _OIL_DEFAULTS = {
     "density_temperature_degc": "15",
@@ -122,11 +122,15 @@ def _rows(heading: str, notes: Mapping[str, FieldNote], defaults: Mapping[str, s
     rows = ""
     for name, note in notes.items():
         if name.rpartition(".")[0] == section:
-            value = f"{note.kind}, {note.limits}" if note.limits else note.kind
+            value = note.limits or note.kind  # a range is that of a number, names are texts
+            if note.limits and note.kind not in ("number", "text"):
+                value = f"{note.kind}, {note.limits}"
+            if note.unit:
+                value += f" {note.unit}" if note.limits else f" in {note.unit}"
             if note.usual is not None:
                 value += f"; usual {note.usual[0]:g} to {note.usual[1]:g}"
-            field, without = name.rpartition(".")[2], defaults.get(name, note.default) or "required"
-            rows += f"| `{field}` | {note.unit or '-'} | {value} | {without} | {note.meaning} |\n"
+            field, default = name.rpartition(".")[2], defaults.get(name, note.default) or "required"
+            rows += f"| `{field}` | {value} | {default} | {note.meaning} |\n"
     return rows
 
 

@@ -90,7 +90,7 @@ def _within(values: list[float], low: float, high: float) -> list[str]:
 def statements(cars: list[CarAxle]) -> list[list[str]]:
     """Return what both axles have and the verdict, in the order of the table."""
     shared = [replace(car, axle=replace(car.axle, friction=SHARE)) for car in cars]
-    return [*ranges(cars, shared), *estimates(cars), *trends(cars, shared)]
+    return [*ranges(cars, shared), *trends(cars, shared)]
 
 
 def ranges(cars: list[CarAxle], shared: list[CarAxle]) -> list[list[str]]:
@@ -120,30 +120,6 @@ def ranges(cars: list[CarAxle], shared: list[CarAxle]) -> list[list[str]]:
         powers.append(float(np.log(lost[1] / lost[0]) / np.log(8.0)))
     linear = (abs(one - 1.0) <= 0.2 for one in powers)
     rows.append([*_text(powers, ""), _held(*linear, otherwise="not held: steeper")])
-    return rows
-
-
-def estimates(cars: list[CarAxle]) -> list[list[str]]:
-    """Return rows for the crude estimate of single points."""
-    rows = []
-    for kmh, kw, degc, percent in (
-        (100.0, 15.0, 80.0, 4.3),
-        (100.0, 15.0, 40.0, 5.6),
-        (50.0, 3.5, 40.0, 9.6),
-        (100.0, 69.0, 80.0, 2.6),
-    ):
-        found = [sum(cruise(car, kmh, 1e3 * kw, degc).values()) for car in cars]
-        ratios = [one / percent for one in found]
-        words = ", ".join(f"{one:.2f}" for one in ratios)
-        held = _held(*(1 / 1.4 <= one <= 1.4 for one in ratios))
-        rows.append([*_text(found), f"{held} to a factor of 1.4: {words} times"])
-    for at, sources, low, high in (
-        ((50.0, 3500.0, 40.0), ("bearing_torque",), 31, 51),
-        ((100.0, 69e3, 80.0), MESH, 67, 87),
-    ):
-        parts = [cruise(car, *at) for car in cars]
-        found = [100.0 * sum(one[key] for key in sources) / sum(one.values()) for one in parts]
-        rows.append(_within(found, low, high))
     return rows
 
 
