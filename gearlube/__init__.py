@@ -22,7 +22,8 @@ The most used names are attributes of `gl`. All others are in these modules:
 `gl.studies`          studies: settings, runs, readers of results
 ====================  ============================================================
 
-All quantities are in SI units (N, m, rad/s, K, Pa); other units stand in names (`speed_kmh`).
+Arguments are in SI units (N, m, rad/s, K, Pa), unless a name says otherwise (`speed_kmh`). Each
+variable of a dataset has the attribute `units`.
 The stubs `*.pyi` list the names, each with the module that defines it. A module is imported when
 one of its names is first used. docs/api.md describes each name and gives an example.
 

@@ -18,9 +18,9 @@ from docs.page import IMAGES, Page, begin, tally
 from docs.resonance.cases import SEPARATED_FROM, Curve
 from docs.resonance.claims_dynamics import DYNAMICS
 from docs.resonance.claims_tribology import TRIBOLOGY
-from docs.resonance.decisions import flank_decisions, motion_decisions
+from docs.resonance.decisions import flank_decisions
 from docs.resonance.evidence import Both, Evidence, gather, kept
-from docs.resonance.numerics import agreements, drifts, linear_limit
+from docs.resonance.numerics import agreements, linear_limit
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.resonance.figures import save_resonance_figures
 from gearlube.studies.resonance.run import run_resonance
@@ -167,16 +167,12 @@ def main(work: Path) -> None:
     page.rows("Pair | f_n, Hz", branch_rows(evidence))
     put_double_count(page, evidence)
     put_claims(page, evidence)
-    motion_decisions(page, work)
     flank_decisions(page, work)
     count, worst = kept(work, "agreement", lambda: agreements(evidence))
     page.fill("{} motions, disturbed and integrated in time by DOP853, differ by at most {} % from",
               count, f"{worst:.3f}")  # fmt: skip
     page.fill("closed form within {} (1-DOF) and {} (2-DOF,",
               *kept(work, "linear_limit", linear_limit))  # fmt: skip
-    page.fill("on the two angles gives {} times the exact swing at half the natural frequency, "
-              "because the error is 1e-9 of the angles. With x itself in um it is {} times.",
-              *kept(work, "drift", drifts))  # fmt: skip
     page.write()
     mismatch_figure(evidence).savefig(IMAGES / "resonance_mismatch.png", dpi=150)
     for picture in save_resonance_figures(*kept(work, "study", study), work / "figures"):

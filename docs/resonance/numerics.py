@@ -1,32 +1,22 @@
-"""Continuation against time integration, the linear limit, and a loose tolerance."""
+"""Continuation against time integration, and the linear limit."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from docs.resonance.cases import E0, R_P0, TEETH, Curve, Point, reconstructed, respond
+from docs.resonance.cases import Curve, Point, reconstructed, respond
 from docs.resonance.evidence import Evidence
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_torsional.mode_march import MARCH_WORK, N_RECORD, march
-from gearlube_core.dynamics.hypoid_torsional.model import HypoidTorsional
 from gearlube_core.dynamics.hypoid_torsional.rates import MICRO, UM
-from gearlube_core.dynamics.hypoid_torsional.time_sweep import settle_load
 
 AGREE_AT = (0.3, 0.5, 0.65, 0.9, 1.0, 1.3)  # mesh over natural frequency
 PERIODS = 100  # mesh periods after a disturbance
 DISTURBANCE = 0.03  # of the peak-to-peak motion
 SAMPLES = 256
 TOLERANCE = 1e-9
-REVOLUTIONS, SETTLING, STEPS = 40, 600, 256
-_MOST_PERIODS = 12
-_SAME = 0.01
-LOOSE, EXACT = (1e-3, 1e-6), (1e-9, 1e-12)  # rtol, atol of RK45; the first as in ode45
-DURATION = 0.3  # s
-DRIFT_AT = 0.5
 
 
 def agreements(evidence: Evidence) -> tuple[int, float]:
@@ -86,57 +76,3 @@ def linear_limit() -> list[str]:
         off = np.abs([curve.up(r).harmonics[0] for r in curve.relative] / exact - 1.0)
         found.append(f"{off.max():.1e}")
     return found
-
-
-def settled_from(model: HypoidTorsional, relative: float, x: float) -> tuple[float, int]:
-    """Return the peak-to-peak motion [m] and its mesh periods, 0 if it does not repeat in 12."""
-    rows, p = model.rows(STEPS), model.kernel_parameters
-    speed = model.pinion_speed(relative * model.natural_frequency)
-    y = model.initial_state(speed)
-    y[0] = MICRO * x
-    work = np.zeros(MARCH_WORK)
-    load = settle_load(y, REVOLUTIONS, model.mean_load_torque, speed, rows, p, work)
-    record = np.zeros((_MOST_PERIODS * STEPS, N_RECORD))
-    march(y, 0, SETTLING, load, speed, rows, p, record[:0], work)
-    march(y, SETTLING, _MOST_PERIODS, load, speed, rows, p, record, work)
-    periods = record[:, 1].reshape(_MOST_PERIODS, STEPS)
-    swing = float(np.ptp(periods))
-    for count in (1, 2, 3, 4, 6):
-        if np.max(np.abs(periods[count:] - periods[:-count])) < _SAME * swing:
-            return swing * UM, count
-    return swing * UM, 0
-
-
-def drifts() -> tuple[str, str]:
-    """Return the swing at half the natural frequency by RK45 with LOOSE over that with EXACT.
-
-    With both angles as states, x their difference, and with x in micrometres.
-    """
-    model = HypoidTorsional(reconstructed(radii="mean", hold_gain=0.0))
-    speed = model.pinion_speed(DRIFT_AT * model.natural_frequency)
-    load = model.mean_load_torque
-    R_g = R_P0 * 36.0 / 13.0
-
-    def difference(s: Array) -> Array:
-        return np.asarray(R_P0 * s[0] - R_g * s[1] - E0 * np.cos(TEETH * s[0]))
-
-    def absolute(_: float, s: Array) -> list[float]:
-        r = model.pair_rates(float(difference(s)), s[2], s[3], s[0], load, speed)
-        return [s[2], s[3], r.w_p, r.w_g]
-
-    def relative(_: float, s: Array) -> list[float]:
-        r = model.pair_rates(s[0] * UM, s[1], s[2], s[3], load, speed)
-        return [r.x * MICRO, r.w_p, r.w_g, s[1]]
-
-    y = model.initial_state(speed)
-    angles = np.array([0.0, (-E0 - y[0] * UM) / R_g, y[1], y[2]])
-    ways = ((absolute, angles, difference), (relative, y, lambda s: s[0] * UM))
-
-    def swing(rates: Any, start: Array, read: Any, tolerances: tuple[float, float]) -> float:
-        rtol, atol = tolerances
-        s = solve_ivp(rates, (0.0, DURATION), start, "RK45", rtol=rtol, atol=atol)
-        return float(np.ptp(read(s.y[:, s.t > 0.5 * DURATION])))
-
-    exact = swing(*ways[1], EXACT)
-    angle, own = (swing(*way, LOOSE) / exact for way in ways)
-    return f"{angle:.0f}", f"{own:.3f}"
