@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import groupby
+
 from docs.page import Page
 from docs.source_tags import Equation, Tag, equations, package_tags
 
@@ -29,8 +31,11 @@ def refreshed() -> Page:
         for row in equations():
             if row.paper == paper:
                 where = ", ".join(f"`{place}`" for place in places(row, tags)) or "-"
-                rows.append([f"({row.number})", row.what, row.form, where, row.note or "-"])
-        page.rows("Equation | What", rows, f"Tags: `[{paper} (number)]`.")
+                rows.append((f"({row.number})", row.what, row.form, where, row.note))
+        alike = [list(some) for _, some in groupby(rows, lambda row: row[2:])]
+        shown = ([", ".join(n for n, *_ in some), "; ".join(one[1] for one in some), *some[0][2:]]
+                 for some in alike)  # fmt: skip
+        page.rows("Equation | What", shown, f"Tags: `[{paper} (number)]`.")
     return page
 
 

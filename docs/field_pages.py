@@ -58,7 +58,11 @@ PAGES: dict[str, tuple[type[InputFile], ...]] = {
     "problem_file": (OptimisationFile,),
     "train_file": (TrainFile,),
 }
-_TABLE = re.compile(r"(?<=^### )(.*\n\n\| Field \| Value \|.*\n.*\n)(?:\|.*\n)+", re.MULTILINE)
+_AGAIN = "As above: "
+_MANY = 4  # rows that are not written again
+_TABLE = re.compile(
+    rf"(?<=^### )(.*\n\n\| Field \| Value \|.*\n.*\n)(?:\|.*\n)+(?:\n{_AGAIN}.*\n)?", re.MULTILINE
+)
 _CLASS = "by class"
 _OIL_DEFAULTS = {
     "density_temperature_degc": "15",
@@ -107,19 +111,23 @@ def refreshed(name: str) -> Page:
         text, chapters = "", [page.text]
     else:
         text, *chapters = re.split(r"^(?=## Fields)", page.text, flags=re.MULTILINE)
+    seen: set[str] = set()
     for model, chapter in zip(PAGES[name], chapters, strict=True):
         notes = field_notes(model) | _OTHER_NOTES.get(name, dict)()
-        text += _TABLE.sub(lambda found: found[1] + _rows(found[1], notes, defaults), chapter)  # noqa: B023
+        text += _TABLE.sub(lambda found: found[1] + _rows(found[1], notes, defaults, seen), chapter)  # noqa: B023
     page.text = text
     if name in _OTHER_TABLES:
         _OTHER_TABLES[name](page)
     return page
 
 
-def _rows(heading: str, notes: Mapping[str, FieldNote], defaults: Mapping[str, str]) -> str:
+def _rows(
+    heading: str, notes: Mapping[str, FieldNote], defaults: Mapping[str, str], seen: set[str]
+) -> str:
+    """Return the rows of a section; of those that the page has already, the names alone."""
     bracket = re.match(r'\[([\w.]+)\](?:, kind = "(\w+)")?(?: with (\w+))?', heading)
     section = ".".join(filter(None, bracket.groups())) if bracket else ""
-    rows = ""
+    rows = {}
     for name, note in notes.items():
         if name.rpartition(".")[0] == section:
             value = note.limits or note.kind  # a range is that of a number, names are texts
@@ -130,8 +138,12 @@ def _rows(heading: str, notes: Mapping[str, FieldNote], defaults: Mapping[str, s
             if note.usual is not None:
                 value += f"; usual {note.usual[0]:g} to {note.usual[1]:g}"
             field, default = name.rpartition(".")[2], defaults.get(name, note.default) or "required"
-            rows += f"| `{field}` | {value} | {default} | {note.meaning} |\n"
-    return rows
+            rows[field] = f"| `{field}` | {value} | {default} | {note.meaning} |\n"
+    again = [field for field, row in rows.items() if row in seen]
+    again = again if _MANY <= len(again) < len(rows) else []
+    seen.update(rows.values())
+    text = "".join(row for field, row in rows.items() if field not in again)
+    return text + (f"\n{_AGAIN}{', '.join(f'`{one}`' for one in again)}.\n" if again else "")
 
 
 def _axle_defaults() -> dict[str, str]:
