@@ -79,7 +79,7 @@ def usable_words(inside: Array, axes: Sequence[tuple[Array, str]]) -> str:
 
 
 def _span(values: Array, unit: str) -> str:
-    first, last = f"{values[0]:.4g}", f"{values[-1]:.4g}"
+    first, last = f"{values[0]:.5g}", f"{values[-1]:.5g}"
     return f"{first} {unit}" if first == last else f"{first} to {last} {unit}"
 
 

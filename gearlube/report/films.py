@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.range_words import usable_words
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
 from gearlube_core.arrays import Array
@@ -38,7 +39,10 @@ def film_ratio_words(ratio: float) -> str:
 
 
 def hot_film(
-    hottest: xr.DataArray, oil_end: float, where: Callable[[xr.DataArray], str]
+    hottest: xr.DataArray,
+    oil_end: float,
+    where: Callable[[xr.DataArray], str],
+    axes: Mapping[str, str] | None = None,
 ) -> list[Finding]:
     """Return the finding of films hotter than the oil data; may be empty.
 
@@ -50,19 +54,23 @@ def hot_film(
         Highest temperature of the oil data [degC]; nan if it is not known.
     where : callable
         Returns where a point is, from its element of `hottest`.
+    axes : mapping
+        Unit of each dimension of `hottest`, to say for which part of it films are usable.
     """
     beyond = hottest > oil_end
     if not beyond.any():
         return []
     worst = hottest.isel(hottest.argmax(list(hottest.dims), skipna=True))  # type: ignore[arg-type]
     share = 100.0 * float(beyond.sum() / hottest.notnull().sum())
+    grid = [(hottest[name].values, unit) for name, unit in (axes or {}).items()]
     return [
         Finding(
             WARNING,
             f"The hottest flank film, {float(worst):.0f} °C at {where(worst)}, is extrapolated: "
             f"the oil data end at {oil_end:.0f} °C.",
             "Read it as hotter than the data, not as a temperature. Film and friction follow the "
-            f"same laws of the oil beyond their data, at {share:.0f} % of the points.",
+            f"same laws of the oil beyond their data, at {share:.0f} % of the points. "
+            + (usable_words(~beyond.transpose(*axes).values, grid) if axes else ""),
         )
     ]
 

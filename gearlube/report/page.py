@@ -82,7 +82,12 @@ def report_html(report: Report, made: str = "") -> str:
         figures=figures[: len(main)],
         folded=figures[len(main) :],
         numbers=[
-            (one.name, number_text(one.value, one.digits), one.unit)
+            (
+                one.name,
+                number_text(one.value, one.digits),
+                one.unit,
+                " to ".join(number_text(end, one.digits) for end in one.band or ()),
+            )
             for one in report.numbers
             if not isnan(one.value)
         ],
@@ -122,19 +127,21 @@ def _figure(number: int, figure: Any) -> dict[str, Any]:
 
 
 def _table(table: Table) -> dict[str, Any]:
-    columns = [
-        column_texts([row[i] for row in table.rows], column.digits)
-        for i, column in enumerate(table.columns)
+    cells = [[row[i] for row in table.rows] for i in range(len(table.columns))]
+    shown = [
+        (column, values)
+        for column, values in zip(table.columns, cells, strict=True)
+        if any(one not in (None, "") for one in values)  # an empty column answers nothing
     ]
     return {
         "title": table.title,
         "caption": table.caption,
         "folded": table.folded,
-        "heads": [(column.name, column.unit) for column in table.columns],
-        "words": [
-            any(isinstance(row[i], str) for row in table.rows) for i in range(len(table.columns))
-        ],
-        "rows": list(zip(*columns, strict=True)),
+        "heads": [(column.name, column.unit) for column, _ in shown],
+        "words": [any(isinstance(one, str) for one in values) for _, values in shown],
+        "rows": list(
+            zip(*(column_texts(values, column.digits) for column, values in shown), strict=True)
+        ),
     }
 
 

@@ -70,12 +70,15 @@ class Number:
         Everyday unit; "" for none.
     digits : int
         Significant digits that are shown.
+    band : (float, float), optional
+        Low and high end of 95 % of what the uncertain inputs make of it, in `unit`.
     """
 
     name: str
     value: float
     unit: str = ""
     digits: int = 3
+    band: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)

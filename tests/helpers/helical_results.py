@@ -103,6 +103,7 @@ def losses(outside=None):
     data = {
         "loss": (("part", *dims), np.stack([0.75 * power, 0.25 * power])),
         "temperature_rise": (dims, 5.0 * np.ones_like(power)),
+        "efficiency": (dims, 1.0 - power / np.outer([100.0, 200.0], [1000.0 * RPM, 3000.0 * RPM])),
     }
     if outside is not None:
         data["share_outside"] = (dims, outside)
@@ -116,7 +117,13 @@ def losses(outside=None):
             "torque": [100.0, 200.0],
             "speed": [1000.0, 3000.0],
         },
-        attrs={"not_modelled": "windage", "film_model_line": "mine"},
+        attrs={
+            "not_modelled": "windage",
+            "film_model_line": "mine",
+            "pinion_torque": 200.0,
+            "pinion_speed": 3000.0 * RPM,
+            "loads": "static, of the mesh of the pair",
+        },
     )
 
 

@@ -35,11 +35,13 @@ def hot_losses(rise):
     return xr.Dataset(
         {
             "loss": ((*grid, "part"), np.ones((1, 2, 2, 2))),
+            "efficiency": (grid, np.full((1, 2, 2), 0.99)),
             "temperature_rise": (grid, np.array([[[5.0, 8.0], [7.0, rise]]])),
         },
         coords={"temperature": [90.0], "torque": [50.0, 200.0], "speed": [1000.0, 9000.0],
                 "part": ["sliding", "rolling"]},
-        attrs={"not_modelled": "bearings", "oil_data_high_degc": 150.0},
+        attrs={"not_modelled": "bearings", "oil_data_high_degc": 150.0, "pinion_torque": 50.0,
+               "pinion_speed": 1000.0 * RPM, "loads": "static, constant density"},
     )  # fmt: skip
 
 
@@ -49,7 +51,9 @@ def test_a_film_hotter_than_the_oil_data_is_a_warning_in_losses_and_in_operation
     assert (
         "473 °C at 200 N·m, 9000 rpm and 90 °C oil, is extrapolated" in hot[0].headline
     )  # 90 + 383
-    assert "at 25 % of the points" in hot[0].detail  # one of four
+    assert (
+        "at 25 % of the points. Usable for 50 N·m, 1000 to 9000 rpm, 90 °C" in hot[0].detail
+    )  # one of four
     assert not [one for one in findings({"losses": hot_losses(59.0)}) if "film" in one.headline]
     (said,) = (one for one in findings({"film": film(2.0, 75.0)}) if "flank film" in one.headline)
     assert "155 °C" in said.headline
@@ -156,26 +160,47 @@ def test_the_least_film_ratio_is_that_of_loaded_points(ratio, level):
 
 def test_a_study_has_its_known_key_numbers_with_the_same_names_in_every_run():
     expected = [
+        ("power lost in the mesh", 19.0, "W", "19.0"),
+        # 19 W of 200 N.m at 100 pi rad/s
+        ("efficiency of the mesh", 100.0 - 0.095 / np.pi, "%", "99.97"),
+        ("mean coefficient of friction", 0.04, "", "0.0400"),
         ("dynamic transmission error in operation", 0.3, "µm", "0.300"),
-        ("its mesh order", 2, "", "2"),
+        ("mesh order of it in operation", 2, "", "2"),
         ("largest dynamic transmission error in the sweep", 1.5, "µm", "1.50"),
-        ("its mesh order there", 2, "", "2"),
-        ("its speed", 2000.0, "rpm", "2000"),
+        ("mesh order of the largest", 2, "", "2"),
+        ("speed of the largest", 2000.0, "rpm", "2000"),
         ("mean mesh stiffness", 500.0, "N/µm", "500"),
         ("loaded transmission error, peak to peak", 0.4, "µm", "0.400"),
         ("highest pressure", 1.4, "GPa", "1.40"),
         ("longest time without contact", 25.0, "%", "25.0"),
         ("least unstable factor on the swing of the stiffness", 2.0, "", "2.00"),
-        ("mean coefficient of friction", 0.04, "", "0.0400"),
-        ("power lost in the mesh", 150.0, "W", "150"),
     ]
     assert_numbers(numbers(everything()), expected)
     none = [(name, np.nan, unit, "–") for name, _, unit, _ in expected]
     assert_numbers(numbers({}), none)
+    # no number of a sharp edge: its pressure rises with finer cells
+    pressed = {one.name: one.value for one in numbers({"contact": contact(4.0e9)})}
+    assert np.isnan(pressed["highest pressure"])
+
+
+def test_the_band_of_the_losses_stands_in_finding_key_numbers_and_table():
+    torque = losses()["loss"].sum("part") / (losses()["speed"] * RPM)
+    of = losses().assign(loss_torque_low=0.5 * torque, loss_torque_high=2.0 * torque)
+    said = findings({"losses": of})[0].headline
+    # 100 - 100 of 38 and 9.5 W over 62.8 kW
+    assert "lose 19.0 W (9.50 to 38.0) and are 99.97 % (99.94 to 99.98) efficient" in said
+    power, efficiency = numbers({"losses": of})[:2]
+    np.testing.assert_allclose(power.band, (9.5, 38.0), rtol=1e-12)
+    np.testing.assert_allclose(efficiency.band, (99.93952, 99.98488), rtol=1e-7)
+    row = _losses(of.sel(temperature=[40.0])).rows[-1]
+    assert row[3:6] == pytest.approx([19.0, 9.5, 38.0])
+    assert row[7:10] == pytest.approx([99.96976, 99.93952, 99.98488], rel=1e-7)
 
 
 def test_a_study_has_its_known_findings():
     said = [
+        (NOTE, "teeth lose … efficient … Sliding makes 75 % of it … most over all … windage",
+         "200 N·m, 3000 rpm, 40 °C, 19.0 W, 99.97 %, 75 %, 60.0 W, 200 N·m, 3000 rpm, 90 °C"),
         (NOTE, "At … the largest order … oil film", "1000 rpm, 0.300 µm, 2, 1.00 kHz"),
         (GOOD, "mesh order … is … below the natural frequency … nearest",
          "1000 rpm, 3, 50.0 %, 3.00 kHz, 1, 3, 10 %"),
@@ -187,12 +212,10 @@ def test_a_study_has_its_known_findings():
         (GOOD, "Parametric instability begins at … itself is stable", "2"),
         (NOTE, "smallest film ratio … mean coefficient of friction … loses … roughness",
          "1.30, 0.0400, 150 W, 0.5 µm, 80 °C, 3"),
-        (NOTE, "teeth lose at most … sliding 75 % … windage",
-         "60.0 W, 200 N·m, 3000 rpm, 90 °C, 75 %"),
     ]  # fmt: skip
     assert_findings(findings(everything()), said)
     own = everything()["sweep"].assign(film_share_outside=("speed", [0.0, 0.3, 0.2]))
-    said = [said[2], (WARNING, "in part, are by formulas", "2, 3, 2000, 3000 rpm, 70, 80 %, 95 %")]
+    said = [said[3], (WARNING, "in part, are by formulas", "2, 3, 2000, 3000 rpm, 70, 80 %, 95 %")]
     assert_findings(findings({"sweep": own}), said)
 
 
@@ -305,7 +328,6 @@ def test_a_study_has_its_known_rows_of_the_summary():
 def test_the_report_of_a_study_has_its_known_tables_and_inputs():
     of = everything()
     of["sweep"].attrs["pinion_teeth"] = TEETH
-    of["losses"] = losses().assign(loss_torque=losses()["loss"].sum("part") / 100.0)
     one = HelicalSettings(
         file=HelicalGearFile.named("he_2007"),
         pinion_torque=226.0,
@@ -313,8 +335,9 @@ def test_the_report_of_a_study_has_its_known_tables_and_inputs():
         roughness_rms=0.7e-6,
     )
     results = SimpleNamespace(datasets=of, settings=one)
-    heads = ["oil [°C]", "torque [N·m]", "speed [rpm]", "loss torque [N·m]", "sliding [W]",
-             "rolling [W]", "sliding by"]  # fmt: skip
+    heads = ["oil [°C]", "torque [N·m]", "speed [rpm]", "lost [W]", "low [W]", "high [W]",
+             "of it by rolling [W]", "efficiency [%]", "low [%]", "high [%]",
+             "sliding by"]  # fmt: skip
     meets = [f"order {order} meets it at [rpm]" for order in (1, 2, 3)]
     expected = {
         "Critical speeds": [
@@ -323,7 +346,8 @@ def test_the_report_of_a_study_has_its_known_tables_and_inputs():
         ],
         "Losses of the pair": [
             heads,
-            *([degc, torque, rpm, 0.01 * w, 0.75 * w, 0.25 * w, "formulas"]
+            *([degc, torque, rpm, w, None, None, 0.25 * w, 100.0 - 100.0 * w / (torque * rpm * RPM),
+               None, None, "formulas"]
               for w, degc, torque, rpm in (
                   (11.0, 40.0, 100.0, 1000.0), (13.0, 40.0, 100.0, 3000.0),
                   (17.0, 40.0, 200.0, 1000.0), (19.0, 40.0, 200.0, 3000.0),

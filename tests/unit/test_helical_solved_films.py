@@ -112,13 +112,14 @@ def test_points_that_the_film_model_does_not_cover_are_those_of_the_formulas():
     # quarter more, would move the end of the bar twice as far
     moved = [(one - 1.0) / (other - 1.0) for one, other in zip(*bars, strict=True)]
     assert moved == pytest.approx([1.0, 1.0], abs=0.3)
-    told = " ".join(f.headline for f in findings({"losses": solved.expand_dims("temperature")}))
+    whole = solved.expand_dims(["temperature", "torque"])
+    told = " ".join(f.headline for f in findings({"losses": whole}))
     assert "by formulas and not by solved films at 2 of 3 points, at 16000 to 24000 rpm" in told
     low, high = (100.0 * (1.0 - float(solved["share_outside"][k])) for k in (2, 1))
     assert f"covers only {low:.3g} to {high:.3g} % of the load" in told
     assert "those of solved films at 1 of 3 points" in told
     assert all("solved films (" in row.quantity or "formulas (" in row.quantity
-               for row in _losses(solved.expand_dims(["temperature", "torque"])))  # fmt: skip
+               for row in _losses(whole))  # fmt: skip
 
 
 def test_a_draw_that_leaves_the_film_model_does_not_mix_the_models(monkeypatch):

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.report.charts import Axis, Line, add_line, panels
+from gearlube.report.charts import COLOURS, Axis, Line, add_line, add_stack, panels
 from gearlube.report.films import model_of
 from gearlube.report.inputs import origin_of
-from gearlube.report.numbers import quantity_text
+from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import (
     GIVEN,
     GOOD,
@@ -59,7 +59,6 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         _largest(dataset),
         *_laws(dataset),
         *_films(dataset),
-        *(Finding(NOTE, *_split(sentence)) for sentence in error_sentences(dataset)),
         *_warmth(dataset),
         *_warned(dataset),
     ]
@@ -68,17 +67,18 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
 def numbers(dataset: xr.Dataset) -> list[Number]:
     """Return the key numbers of a bearing study: those of its first law, and the spread."""
     first = dataset.isel(law=0)
+    torque, power, factor = (float(first[name].max()) for name in ("torque", "power", "factor"))
     found = [
-        Number("largest torque", float(first["torque"].max()), "N·m"),
-        Number("largest power loss", float(first["power"].max()), "W"),
-        Number("error bar, factor (k = 2)", float(first["factor"].max()), "", 2),
+        Number("largest torque", torque, "N·m", band=(torque / factor, torque * factor)),
+        Number("largest power loss", power, "W", band=(power / factor, power * factor)),
+        Number("error bar, factor (k = 2)", factor, "", 2),
         Number("mean torque", float(first["torque"].mean()), "N·m"),
     ]
     ratio = float(first["film_ratio"].where(first["speed"] > 0.0).min())
     if np.isfinite(ratio):
         found.append(Number("least film ratio of the raceways", ratio, "", 2))
     if dataset.sizes["law"] > 1:
-        found.append(Number("largest over least law, mean", _spread(dataset), "", 2))
+        found.append(Number("largest over least law, mean", _spread(dataset)))
     return found
 
 
@@ -103,11 +103,15 @@ def _largest(dataset: xr.Dataset) -> Finding:
         f"{worst['part'].values[i]} {100.0 * parts[i] / float(worst['torque']):.0f} %"
         for i in order
     )
+    most, factor = float(worst["power"]), float(worst["factor"].max())
     return Finding(
         NOTE,
-        f"The bearing loses at most {quantity_text(float(worst['power']), 'W')}, with a torque of "
+        f"The bearing loses at most {quantity_text(most, 'W')} ({number_text(most / factor)} to "
+        f"{number_text(most * factor)}, 95 %), with a torque of "
         f"{quantity_text(float(worst['torque']), 'N·m')}, at {words_of(worst)}.",
-        f"By {_name(first)}. Parts of the torque: {words}." if words else f"By {_name(first)}.",
+        f"By {_name(first)}. "
+        + (f"Parts of the torque: {words}. " if words else "")
+        + " ".join(error_sentences(dataset)),
     )
 
 
@@ -119,8 +123,8 @@ def _laws(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             NOTE,
-            f"The laws differ by a factor of {_spread(dataset):.2g}: {_name(low)} has the least "
-            f"mean torque, {quantity_text(float(low), 'N·m')}, {_name(high)} the largest, "
+            f"Mean torques by {_name(low)} and {_name(high)} are a factor of "
+            f"{_spread(dataset):.3g} apart: {quantity_text(float(low), 'N·m')} and "
             f"{quantity_text(float(high), 'N·m')}.",
             "A measured torque in the bearing file removes this uncertainty.",
         )
@@ -204,8 +208,7 @@ def bearing_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
             Figure(
                 name="parts",
                 title="Parts of the torque of the first law",
-                caption="The axis is logarithmic, so that small parts show. A change should aim "
-                "at the highest part.",
+                caption="Parts add up to the torque. A change should aim at the largest.",
                 chart=part_chart(dataset),
             ),
         ],
@@ -243,16 +246,14 @@ def part_chart(dataset: xr.Dataset) -> Any:
     """Return the parts of the torque of the first law along the longest axis."""
     along, places = drawn_places(dataset)
     axis, x = _AXES[along], axis_values(along, dataset[along].values)
-    torque = Axis(_TORQUE.name, _TORQUE.unit, log=True)
-    chart = panels([place_words(p) or "torque" for p in places], axis, [torque] * len(places))
+    chart = panels([place_words(p) or "torque" for p in places], axis, [_TORQUE] * len(places))
+    first = dataset.isel(law=0)
+    found = (first["part_torque"] > 0.0).any(["speed", "axial_load", "radial_load", "temperature"])
+    names = [str(one) for one in first["part"].values[found.values]]
     for row, place in enumerate(places, 1):
-        at = dataset.isel(law=0).sel(place)
-        for number, part in enumerate(at["part"].values):
-            values = at["part_torque"].sel(part=part).values
-            if not np.isfinite(values).all() or not (values > 0.0).any():
-                continue
-            line = Line(name=str(part), x=x, y=np.where(values > 0.0, values, np.nan))
-            add_line(chart, line, number, axis, torque, row=row, col=1, showlegend=row == 1)
+        torque = first["part_torque"].sel(place).sel(part=names).transpose("part", along)
+        look: Any = {"colours": COLOURS[::-1], "row": row, "col": 1}
+        add_stack(chart, names, x, torque.values, axis, _TORQUE, **look)
     return chart
 
 

@@ -80,11 +80,10 @@ def bearing_warnings(dataset: xr.Dataset) -> list[str]:
         at = dataset.sel(law=law)
         out = float(at["out_of_range"].max())
         if out > 0.0:
-            worst = rads_to_rpm(float(at["speed"].values[0]))
-            for i, speed in enumerate(at["speed"].values):
-                if float(at["out_of_range"].isel(speed=i).max()) > 0.0:
-                    worst = rads_to_rpm(float(speed))
-                    break
+            others = [name for name in at["out_of_range"].dims if name != "speed"]
+            beyond = (at["out_of_range"] > 0.0).any(others).values
+            worst = rads_to_rpm(float(at["speed"].values[int(np.argmax(beyond))]))
+            usable = "at no speed" if beyond[0] else "below that speed"
             what = f"the range of the fit ({MATERIAL_LIMIT_WORDS})"
             rest = "the torque is still computed."
             if law == "solved_films":
@@ -92,7 +91,7 @@ def bearing_warnings(dataset: xr.Dataset) -> list[str]:
                 rest = "formulas stand in for it there."
             found.append(
                 f"{law}: raceway contacts leave {what} from {worst:.4g} rpm on, up to "
-                f"{100 * out:.2g} % of them; {rest}"
+                f"{100 * out:.2g} % of them; fully usable {usable}: beyond, {rest}"
             )
         if str(law) in CATALOGUE_LAWS:
             continue

@@ -93,18 +93,15 @@ def gear_file_warnings(file: HypoidGearFile) -> list[str]:
 
 
 def findings(contact: xr.Dataset) -> list[Finding]:
-    """Return the findings of a contact analysis, drive side first, the most important first.
+    """Return the findings of a contact analysis, the answer first.
 
     Examples
     --------
     >>> findings(xr.load_dataset("gearlube_contact/contact.nc"))[0].headline  # doctest: +SKIP
-    'The drive flanks are pressed by a sharp edge from 100 N·m on.'
+    'The first mesh order of the loaded transmission error, ...'
     """
-    found: list[Finding] = []
-    for side in SIDES:
-        part = contact.sel(side=side)
-        found += [_edges(part, side), _error(part, side), _pattern(part, side)]
-    return [*found, _stiffness(contact)]
+    patterns = [_pattern(contact.sel(side=side), side) for side in SIDES]
+    return [_error(contact), _edges(contact), *patterns, _stiffness(contact)]
 
 
 def edge_torque(part: xr.Dataset) -> float:
@@ -113,26 +110,28 @@ def edge_torque(part: xr.Dataset) -> float:
     return float(part["torque"].values[over][0]) if over.any() else float("nan")
 
 
-def _edges(part: xr.Dataset, side: str) -> Finding:
-    first, top = edge_torque(part), float(part["torque"][-1])
-    highest = 1e-9 * float(part["pressure_max"].max())
-    if np.isnan(first):
+def _edges(contact: xr.Dataset) -> Finding:
+    from_torque = {side: edge_torque(contact.sel(side=side)) for side in SIDES}
+    top, limit = float(contact["torque"][-1]), f"{1e-9 * EDGE_PRESSURE:g} GPa"
+    pressed = [side for side in SIDES if not np.isnan(from_torque[side])]
+    if not pressed:
+        highest = 1e-9 * float(contact["pressure_max"].max())
         return Finding(
             GOOD,
-            f"No sharp edge presses into the {side} flanks with more than "
-            f"{1e-9 * EDGE_PRESSURE:g} GPa up to {top:g} N·m: the highest pressure is "
-            f"{quantity_text(highest, 'GPa')}.",
+            f"No sharp edge presses with more than {limit} up to {top:g} N·m: the highest pressure "
+            f"is {quantity_text(highest, 'GPa')}.",
             "Higher pressures would be those of edges. The command names edges that carry less.",
         )
-    middle = 1e-9 * _middle(part)
+    where = " and ".join(f"{side} flanks from {from_torque[side]:g} N·m on" for side in pressed)
+    middle = " and ".join(
+        quantity_text(1e-9 * _middle(contact.sel(side=side)), "GPa", 2) for side in pressed
+    )
     return Finding(
         WARNING,
-        f"Sharp edges press into the {side} flanks with more than {1e-9 * EDGE_PRESSURE:g} GPa "
-        f"from {first:g} N·m on.",
+        f"Sharp edges press into the {where}, with more than {limit}.",
         "The pressure of an edge is no number to use, because it rises with finer cells. Where a "
-        f"pair carries most load, {top:g} N·m give "
-        f"{quantity_text(middle, 'GPa', 2)}. Relief of tips and ends in the gear file removes edge "
-        "contact; the command names the edges.",
+        f"pair carries most load, {top:g} N·m give {middle}. Relief of tips and ends in the gear "
+        "file removes edge contact; the command names the edges.",
     )
 
 
@@ -154,18 +153,29 @@ def first_order(part: xr.Dataset) -> np.ndarray:
     return np.asarray(2.0 * np.abs(np.fft.rfft(errors)[:, 1]) / part.sizes["phase"])
 
 
-def _error(part: xr.Dataset, side: str) -> Finding:
-    first, torque = first_order(part), part["torque"].values
-    most, least = int(np.argmax(first)), int(np.argmin(first))
-    unloaded = 1e6 * float(part["R_p"].mean() * np.ptp(part["error"].values))
+def _error(contact: xr.Dataset) -> Finding:
+    largest, others, torque = [], [], contact["torque"].values
+    for side in SIDES:
+        part = contact.sel(side=side)
+        first = first_order(part)
+        most, least = int(np.argmax(first)), int(np.argmin(first))
+        largest.append(f"{quantity_text(first[most], 'µm')} ({side}, at {torque[most]:g} N·m)")
+        others.append(
+            f"On {side} flanks it is least at {torque[least]:g} N·m, "
+            f"{quantity_text(first[least], 'µm')}; the error without load is "
+            f"{quantity_text(_unloaded(part), 'µm')} peak to peak."
+        )
     return Finding(
         NOTE,
-        f"The first mesh order of the loaded transmission error ({side}) is largest at "
-        f"{torque[most]:g} N·m: {quantity_text(first[most], 'µm')}.",
-        f"It is smallest at {torque[least]:g} N·m: {quantity_text(first[least], 'µm')}. Without "
-        f"load the error is {quantity_text(unloaded, 'µm')} peak to peak. This order excites the "
-        "whine.",
+        "The first mesh order of the loaded transmission error, which excites the whine, is at "
+        f"most {' and '.join(largest)}.",
+        " ".join(others),
     )
+
+
+def _unloaded(part: xr.Dataset) -> float:
+    """Return the unloaded transmission error of a side, peak to peak [µm]."""
+    return 1e6 * float(part["R_p"].mean() * np.ptp(part["error"].values))
 
 
 def _pattern(part: xr.Dataset, side: str) -> Finding:
@@ -215,7 +225,7 @@ def numbers(contact: xr.Dataset) -> list[Number]:
             Number(f"largest first order of the loaded error, {side}", float(first.max()), "µm"),
             Number(
                 f"unloaded error, peak to peak, {side}",
-                1e6 * float(part["R_p"].mean() * np.ptp(part["error"].values)),
+                _unloaded(part),
                 "µm",
             ),
             Number(

@@ -41,6 +41,7 @@ from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.progress import Progress, no_progress
 from gearlube_core.storage.atomic_file import write_dataset
 from gearlube_core.storage.file_names import pair_stem
+from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 _LIMITS = (
     "Quasi-static: the pair turns slowly. Vibration, friction and oil film are not in the contact.",
@@ -61,6 +62,14 @@ _COLUMNS = (
     Column("highest pressure", "GPa"),
 )
 
+_MAIN = (
+    "transmission_error",
+    "pressure",
+    "solid_view",
+    "ease_off",
+    "load_share",
+    "stiffness_torque",
+)
 POSITIONS = "positions"  # folder of finished positions, in that of the results
 
 
@@ -165,6 +174,7 @@ def _contact_report(contact: xr.Dataset, figures: Path, command_line: str = "") 
         "the pinion.",
         findings=findings(contact),
         numbers=numbers(contact),
+        main_figures=_MAIN,
         figures=[_solid(contact), *pictured(CONTACT_CATALOGUE, figures, charts)],
         tables=[_table(contact)],
         inputs=file_inputs(HypoidGearFile.model_validate_json(attributes["gear_file"])),
@@ -199,7 +209,7 @@ def _table(contact: xr.Dataset) -> Table:
             1e-6 * one.tangent_stiffness,
             1e3 * one.pinion_arm,
             one.pairs,
-            1e-9 * one.highest_pressure,
+            1e-9 * one.highest_pressure if one.highest_pressure < EDGE_PRESSURE else None,
         ]
         for one in contact_summary(contact)
     ]
@@ -207,7 +217,8 @@ def _table(contact: xr.Dataset) -> Table:
         title="Loaded contact",
         columns=_COLUMNS,
         rows=rows,
-        caption="Means over the mesh; the pressure is the highest of it.",
+        caption="Means over the mesh; the pressure is the highest of it. –: a sharp edge presses, "
+        "whose pressure has no finite value.",
     )
 
 

@@ -17,8 +17,9 @@ from gearlube.report.films import (
     model_of,
     solved_films,
 )
-from gearlube.report.numbers import quantity_text
+from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding
+from gearlube.studies.helical.pair_losses import efficiency_band, in_operation, loss_band
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import LINE, MOST_OUTSIDE
@@ -58,6 +59,7 @@ def findings(datasets: Datasets) -> list[Finding]:
     """
     found: list[Finding] = []
     for name, of in (
+        ("losses", _losses),
         ("response", _operation),
         ("response", _margins),
         ("sweep", _sweep),
@@ -65,7 +67,6 @@ def findings(datasets: Datasets) -> list[Finding]:
         ("contact", _edges),
         ("stability", _stability),
         ("film", _film),
-        ("losses", _losses),
     ):
         if name in datasets:
             found += of(datasets[name])
@@ -346,21 +347,42 @@ def _words_of(point: xr.Dataset | xr.DataArray) -> str:
     )
 
 
+def _loads(losses: xr.Dataset) -> str:
+    if not str(losses.attrs["loads"]).endswith("constant density"):
+        return "Static loads."
+    return (
+        "Static loads by one stiffness along all contact lines, which leaves out relief and crown: "
+        "--parts all takes those of the loaded contact."
+    )
+
+
 def _losses(losses: xr.Dataset) -> list[Finding]:
     power = losses["loss"].sum("part")
     worst = losses.isel(power.argmax(list(power.dims)))  # type: ignore[arg-type]
-    total, sliding = float(worst["loss"].sum()), float(worst["loss"].sel(part="sliding"))
+    own = in_operation(losses)
+    total, sliding = float(own["loss"].sum()), float(own["loss"].sel(part="sliding"))
+    lost, kept = loss_band(own), efficiency_band(own)
+    ends = [
+        ""
+        if band is None
+        else f" ({number_text(band[0], digits)} to {number_text(band[1], digits)})"
+        for band, digits in ((lost, 3), (kept, 4))
+    ]
     found = [
         Finding(
             NOTE,
-            f"The teeth lose at most {quantity_text(total, 'W')}, at {_words_of(worst)}: sliding "
-            f"{100.0 * sliding / total:.0f} %.",
-            f"Static loads. Not modelled: {losses.attrs['not_modelled']}.",
+            f"At {_words_of(own)} the teeth lose {quantity_text(total, 'W')}{ends[0]} and are "
+            f"{quantity_text(100.0 * float(own['efficiency']), '%', 4)}{ends[1]} efficient.",
+            ("" if lost is None else "In brackets: 95 % of the draws of the uncertain data. ")
+            + f"Sliding makes {100.0 * sliding / total:.0f} % of it. The most over all points is "
+            f"{quantity_text(float(worst['loss'].sum()), 'W')}, at {_words_of(worst)}. "
+            f"{_loads(losses)} Not modelled: {losses.attrs['not_modelled']}.",
         ),
         *hot_film(
             losses["temperature"] + losses["temperature_rise"],
             losses.attrs.get("oil_data_high_degc", math.nan),
             _words_of,
+            {"torque": "N·m", "speed": "rpm", "temperature": "°C"},
         ),
     ]
     if "share_outside" not in losses:

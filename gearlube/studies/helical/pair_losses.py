@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube.output.csv_text import csv_text
 from gearlube.report.films import film_model_attributes
-from gearlube.studies.helical.settings import HelicalSettings
+from gearlube.studies.helical.settings import RPM, HelicalSettings
 from gearlube_core.arrays import Array
 from gearlube_core.contact.hertz import line_mean_pressure
 from gearlube_core.dynamics.helical_pair.mesh.film_friction import FilmFriction
@@ -32,7 +32,7 @@ from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 PARTS_OF_LOSS = ("sliding", "rolling")
 NOT_MODELLED = "bearings, seals, churning and squeezing of oil, windage"
 GRID = ("temperature", "torque", "speed")
-SPEED_STEPS = (0.2, 2.0, 7)  # of the operating point's speed, geometric
+SPEED_STEPS = (0.2, 0.3, 0.45, 0.65, 1.0, 1.4, 2.0)  # of the operating point's speed
 _FINE, _COARSE = (48, 8), (16, 4)  # phases and nodes: of the values, of the draws
 _LARGEST_OVER_MEAN = 4.0 / math.pi  # pressure of a Hertz line
 _BOUNDS = (2.5, 97.5)  # percent
@@ -97,7 +97,7 @@ def losses_dataset(
     torques = np.array(settings.load_steps)
     speeds = np.array(settings.speeds)
     if speeds.size == 0:
-        speeds = settings.pinion_speed * np.geomspace(*SPEED_STEPS)
+        speeds = settings.pinion_speed * np.array(SPEED_STEPS)
     temperatures = np.array(settings.oil_temperatures or (settings.oil_temperature,))
     pair = settings.file.helical_pair()
     fine, coarse = line_points(pair, *_FINE), line_points(pair, *_COARSE)
@@ -175,6 +175,8 @@ def losses_dataset(
         },
         attrs={
             "not_modelled": NOT_MODELLED,
+            "pinion_torque": settings.pinion_torque,
+            "pinion_speed": settings.pinion_speed,
             "oil": settings.film().oil.name,
             "oil_data_high_degc": kelvin_to_celsius(settings.film().oil.temperature_high),
             "film_model": settings.film().film,
@@ -260,6 +262,29 @@ def _drawn(
         law = replace(law, **{name: value * by[name] for name, value in law.numbers.items()})
     roughness = film.roughness_rms * by["roughness"]
     return replace(film, oil=oil, roughness_rms=roughness, asperities=law), by
+
+
+def in_operation(losses: xr.Dataset) -> xr.Dataset:
+    """Return the point of the losses next to the operating point, in the first oil temperature."""
+    own = {"torque": losses.attrs["pinion_torque"], "speed": losses.attrs["pinion_speed"] / RPM}
+    return losses.isel(temperature=0).sel(own, method="nearest")
+
+
+def loss_band(one: xr.Dataset) -> tuple[float, float] | None:
+    """Return between which powers [W] 95 % of the draws of the uncertain data lie, if drawn."""
+    if "loss_torque_low" not in one:
+        return None
+    low, high = (float(one[f"loss_torque_{end}"]) for end in ("low", "high"))
+    return low * float(one["speed"]) * RPM, high * float(one["speed"]) * RPM
+
+
+def efficiency_band(one: xr.Dataset) -> tuple[float, float] | None:
+    """Return the efficiencies [%] of `loss_band`, the lower first."""
+    band = loss_band(one)
+    if band is None:
+        return None
+    power = float(one["torque"]) * float(one["speed"]) * RPM
+    return 100.0 - 100.0 * band[1] / power, 100.0 - 100.0 * band[0] / power
 
 
 def losses_csv(dataset: xr.Dataset) -> str:

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.report.charts import Axis, Line, line_chart, mark_level
+from gearlube.report.charts import COLOURS, Axis, Line, add_line, line_chart, mark_level, panels
 from gearlube.report.inputs import file_inputs, origin_of, remark_findings
 from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Number, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
 from gearlube.studies.helical.figures.layout import distinct
+from gearlube.studies.helical.figures.load_sharing import followed, spread
 from gearlube.studies.helical.findings import (
     ORDERS,
     Datasets,
@@ -24,23 +25,45 @@ from gearlube.studies.helical.findings import (
     operating_error,
     order_amplitudes,
 )
+from gearlube.studies.helical.pair_losses import efficiency_band, in_operation, loss_band
 from gearlube.studies.helical.settings import RPM
 from gearlube.studies.helical.stages import HelicalResults
 from gearlube.studies.helical.summary import loss_model, losses_rows
 from gearlube_core.dynamics.helical_pair.gear_file_pair import USUAL_OIL, gear_file_oil
 from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
+from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 _ORDERS = 5
+_MOST_ROWS = 40  # of the table of losses
 _SPEED = Axis("pinion speed", "rpm")
 _DEFAULT = ASSUMED, "default"
+_MAIN = (
+    "losses",
+    "error_orders",
+    "harris_map",
+    "load_sharing",
+    "separation",
+    "campbell",
+    "instability",
+    "film_on_lines",
+)
 _LIMITS = (
-    "Response and sweep are linear with a stiffness that varies over the mesh: they are valid "
-    "while the teeth stay in contact. For separating teeth see tooth separation.",
-    "Supports are springs at the bearings; shafts and housing are rigid.",
-    "Loads of film and losses are static. The losses do not include bearings, seals, churning and "
-    "windage.",
-    "Pressures are those of an elastic half-space on cells; at sharp edges they have no finite "
-    "value.",
+    (
+        "sweep",
+        "Response and sweep are linear with a stiffness that varies over the mesh: they are valid "
+        "while the teeth stay in contact. For separating teeth see tooth separation.",
+    ),
+    ("response", "Supports are springs at the bearings; shafts and housing are rigid."),
+    (
+        "losses",
+        "Loads of film and losses are static. The losses do not include bearings, seals, churning "
+        "and windage.",
+    ),
+    (
+        "contact",
+        "Pressures are those of an elastic half-space on cells; at sharp edges they have no finite "
+        "value.",
+    ),
 )
 
 
@@ -49,9 +72,9 @@ def _harris_chart(contact: xr.Dataset) -> Any:
     torque = contact["torque"].values
     error = 1e6 * contact["transmission_error"].transpose("phase", "torque").values
     orders = 2.0 * np.abs(np.fft.rfft(error, axis=0)) / error.shape[0]
-    lines = [Line(name="peak to peak", x=torque, y=np.ptp(error, axis=0))]
+    lines = [Line(name="peak to peak", x=torque, y=np.ptp(error, axis=0), group=_ORDERS)]
     lines += [
-        Line(name=f"order {order}", x=torque, y=orders[order])
+        Line(name=f"order {order}", x=torque, y=orders[order], group=order - 1)
         for order in range(1, min(4, orders.shape[0] - 1))
     ]
     chart = line_chart(lines, Axis("pinion torque", "N·m"), Axis("loaded transmission error", "µm"))
@@ -89,7 +112,64 @@ def _separation_chart(separation: xr.Dataset) -> Any:
     return chart
 
 
+def _sharing_chart(contact: xr.Dataset) -> Any:
+    """Return share of the torque and highest pressure of a tooth pair from entry to exit."""
+    x = Axis("mesh periods since the pair enters the plane of contact")
+    y = Axis("share of the torque", "%"), Axis("highest pressure", "GPa")
+    chart = panels(["load of one pair", "pressure of one pair"], x, y)
+    for number, torque in enumerate(spread(contact["torque"].values)):
+        part = contact.sel(torque=torque)
+        phase, share = followed(part, "share")
+        pressure = 1e-9 * followed(part, "pressure_max")[1]
+        pressed = (pressure > 0.0) & (pressure < 1e-9 * EDGE_PRESSURE)
+        for row, values in enumerate((100.0 * share, np.where(pressed, pressure, np.nan)), 1):
+            line = Line(name=f"{torque:.4g} N·m", x=phase, y=values)
+            add_line(chart, line, number, x, y[row - 1], row=row, col=1, showlegend=row == 1)
+    chart.update_xaxes(range=[-0.5, float(contact["constant_line"][-1]) + 1.0])
+    chart.update_yaxes(rangemode="tozero")
+    return chart
+
+
+def _loss_chart(losses: xr.Dataset) -> Any:
+    """Return lost power and efficiency over speed, a line for each torque; one has its band."""
+    y = Axis("power lost", "W"), Axis("efficiency of the teeth", "%")
+    chart = panels(["Power lost in the mesh", "Efficiency of the mesh"], _SPEED, y)
+    several = losses["temperature"].size > 1
+    own = float(in_operation(losses)["torque"])
+    for dash, temperature in enumerate(losses["temperature"].values):
+        for number, torque in enumerate(spread(losses["torque"].values)):
+            points = losses.sel(temperature=temperature, torque=torque)
+            name = f"{torque:.4g} N·m" + (f", {temperature:.4g} °C" if several else "")
+            speed = points["speed"].values
+            at = [points.isel(speed=k) for k in range(speed.size)]
+            for row, values, bands in (
+                (1, points["loss"].sum("part").values, [loss_band(one) for one in at]),
+                (2, 100.0 * points["efficiency"].values, [efficiency_band(one) for one in at]),
+            ):
+                look = {"legendgroup": name, "row": row, "col": 1}
+                line = Line(name=name, x=speed, y=values, dash=dash)
+                add_line(chart, line, number, _SPEED, y[row - 1], showlegend=row == 1, **look)
+                if torque == own and bands[0] is not None:
+                    low, high = np.array(bands).T
+                    chart.add_scatter(
+                        x=np.concatenate([speed, speed[::-1]]),
+                        y=np.concatenate([low, high[::-1]]),
+                        fill="toself",
+                        fillcolor=COLOURS[number % len(COLOURS)],
+                        opacity=0.18,
+                        line={"width": 0},
+                        mode="lines",
+                        hoverinfo="skip",
+                        showlegend=False,
+                        **look,
+                    )
+    chart.update_xaxes(exponentformat="none")
+    return chart
+
+
 _CHARTS = {
+    "losses": ("losses", _loss_chart),
+    "load_sharing": ("contact", _sharing_chart),
     "harris_map": ("contact", _harris_chart),
     "separation": ("separation", _separation_chart),
 }
@@ -106,7 +186,8 @@ def helical_report(results: HelicalResults, figures: Path) -> Report:
     charts: dict[str, Any] = {
         name: draw(found[needed]) for name, (needed, draw) in _CHARTS.items() if needed in found
     }
-    first = [_error_orders(results)] if "sweep" in found else []
+    said = findings(found)
+    own = [_error_orders(results)] if "sweep" in found else []
     attributes = next(iter(found.values())).attrs if found else {}
     return Report(
         study="helical",
@@ -114,15 +195,19 @@ def helical_report(results: HelicalResults, figures: Path) -> Report:
         subtitle=f"{settings.file.pinion.teeth} and {settings.file.gear.teeth} teeth, "
         f"{settings.pinion_torque:.4g} N·m and {settings.pinion_speed / RPM:.5g} rpm on the "
         "pinion.",
-        findings=[*remark_findings(attributes), *findings(found)],
+        findings=[*said[:1], *remark_findings(attributes), *said[1:]],
         numbers=numbers(found),
-        figures=[*first, *pictured(HELICAL_CATALOGUE, figures, charts)],
+        figures=[*own, *pictured(HELICAL_CATALOGUE, figures, charts)],
+        main_figures=_MAIN,
         tables=[
             *([_critical_speeds(results)] if "sweep" in found else []),
             *([_losses(found["losses"])] if "losses" in found else []),
         ],
         inputs=_inputs(results),
-        limits=[*_LIMITS, *(f"{name} failed: {why}" for name, why in results.failures.items())],
+        limits=[
+            *(words for name, words in _LIMITS if name in found),
+            *(f"{name} failed: {why}" for name, why in results.failures.items()),
+        ],
         facts=[
             (name, str(attributes[key]))
             for name, key in (("command", "command_line"), ("source", "source"))
@@ -163,28 +248,29 @@ def _critical_speeds(results: HelicalResults) -> Table:
 
 
 def _losses(losses: xr.Dataset) -> Table:
-    bars = "loss_torque_low" in losses
-    names = ["loss_torque", *(f"loss_torque_{end}" for end in ("low", "high") if bars)]
+    rows: list[list[Cell]] = []
+    for one in losses_rows(losses, _MOST_ROWS):
+        lost, kept = loss_band(one) or (None, None), efficiency_band(one) or (None, None)
+        powers = float(one["loss"].sum()), *lost, float(one["loss"].sel(part="rolling"))
+        where = (float(one[name]) for name in ("temperature", "torque", "speed"))
+        rows.append([*where, *powers, 100.0 * float(one["efficiency"]), *kept, loss_model(one)])
     return Table(
         title="Losses of the pair",
         columns=[
             Column("oil", "°C"),
             Column("torque", "N·m", 4),
             Column("speed", "rpm", 4),
-            *(Column(name.replace("_", " "), "N·m") for name in names),
-            Column("sliding", "W"),
-            Column("rolling", "W"),
+            Column("lost", "W"),
+            Column("low", "W"),
+            Column("high", "W"),
+            Column("of it by rolling", "W"),
+            Column("efficiency", "%", 4),
+            Column("low", "%", 4),
+            Column("high", "%", 4),
             Column("sliding by"),
         ],
-        rows=[
-            [
-                *(float(one[name]) for name in ("temperature", "torque", "speed", *names)),
-                *(float(power) for power in one["loss"].values),
-                loss_model(one),
-            ]
-            for one in losses_rows(losses)
-        ],
-        caption="Some points; losses.csv has all. Low and high: between them lie 95 % of the draws "
+        rows=rows,
+        caption="losses.csv has all points. Low and high: between them lie 95 % of the draws "
         "of the uncertain data, by the model of the point.",
     )
 
@@ -242,31 +328,44 @@ def numbers(datasets: Datasets) -> list[Number]:
     nan = float("nan")
     peak = largest_error(datasets["sweep"]) if "sweep" in datasets else None
     own = operating_error(datasets["response"]) if "response" in datasets else None
-    found = [
-        Number("dynamic transmission error in operation", own[0] if own else nan, "µm"),
-        Number("its mesh order", own.order if own else nan, digits=1),
-        Number("largest dynamic transmission error in the sweep", peak[0] if peak else nan, "µm"),
-        Number("its mesh order there", peak.order if peak else nan, digits=1),
-        Number("its speed", peak.speed if peak else nan, "rpm", 4),
-    ]
-    contact, film = datasets.get("contact"), datasets.get("film")
+    contact, film, losses = (datasets.get(name) for name in ("contact", "film", "losses"))
+    separation, stability = datasets.get("separation"), datasets.get("stability")
+    point = None if losses is None else in_operation(losses)
     at = None
+    pressure = nan
     if contact is not None:
         at = contact.sel(torque=contact.attrs["pinion_torque"], method="nearest")
-    found += [
+        pressure = float(at["pressure_max"].max())
+    return [
+        Number(
+            "power lost in the mesh",
+            nan if point is None else float(point["loss"].sum()),
+            "W",
+            band=None if point is None else loss_band(point),
+        ),
+        Number(
+            "efficiency of the mesh",
+            nan if point is None else 100.0 * float(point["efficiency"]),
+            "%",
+            4,
+            band=None if point is None else efficiency_band(point),
+        ),
+        Number(
+            "mean coefficient of friction",
+            nan if film is None else float(film.attrs["operating_mean_coefficient"]),
+        ),
+        Number("dynamic transmission error in operation", own[0] if own else nan, "µm"),
+        Number("mesh order of it in operation", own.order if own else nan, digits=1),
+        Number("largest dynamic transmission error in the sweep", peak[0] if peak else nan, "µm"),
+        Number("mesh order of the largest", peak.order if peak else nan, digits=1),
+        Number("speed of the largest", peak.speed if peak else nan, "rpm", 4),
         Number("mean mesh stiffness", nan if at is None else 1e-6 * float(at["K"].mean()), "N/µm"),
         Number(
             "loaded transmission error, peak to peak",
             nan if at is None else 1e6 * float(at["transmission_error_ptp"]),
             "µm",
         ),
-        Number(
-            "highest pressure", nan if at is None else 1e-9 * float(at["pressure_max"].max()), "GPa"
-        ),
-    ]
-    separation, stability = datasets.get("separation"), datasets.get("stability")
-    return [
-        *found,
+        Number("highest pressure", 1e-9 * pressure if pressure < EDGE_PRESSURE else nan, "GPa"),
         Number(
             "longest time without contact",
             nan if separation is None else 100.0 * float(separation["separation_share"].max()),
@@ -275,14 +374,5 @@ def numbers(datasets: Datasets) -> list[Number]:
         Number(
             "least unstable factor on the swing of the stiffness",
             nan if stability is None else least_unstable(stability),
-        ),
-        Number(
-            "mean coefficient of friction",
-            nan if film is None else float(film.attrs["operating_mean_coefficient"]),
-        ),
-        Number(
-            "power lost in the mesh",
-            nan if film is None else float(film.attrs["operating_power_loss"]),
-            "W",
         ),
     ]

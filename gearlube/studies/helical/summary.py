@@ -196,10 +196,10 @@ def _film(film: xr.Dataset) -> list[Row]:
     ]
 
 
-def losses_rows(losses: xr.Dataset) -> list[xr.Dataset]:
-    """Return up to MOST_POINTS points of the losses, spread over all."""
+def losses_rows(losses: xr.Dataset, most: int = MOST_POINTS) -> list[xr.Dataset]:
+    """Return up to `most` points of the losses, spread over all."""
     points = losses.stack(point=("temperature", "torque", "speed"))
-    kept = np.unique(np.linspace(0, points.sizes["point"] - 1, MOST_POINTS).round().astype(int))
+    kept = np.unique(np.linspace(0, points.sizes["point"] - 1, most).round().astype(int))
     return [points.isel(point=int(i)) for i in kept]
 
 

@@ -22,9 +22,10 @@ def flank_findings(flanks: xr.Dataset) -> list[Finding]:
     --------
     >>> found = xr.load_dataset("gearlube_measured/flanks.nc")  # doctest: +SKIP
     >>> flank_findings(found)[0].headline  # doctest: +SKIP
-    'Gear drive deviates by at most −21.3 µm, 7.2 µm rms; a surface of degree 3 leaves 0.31 µm rms.'
+    'The flanks are up to 21.3 µm from nominal, on gear drive; ...'
     """
-    found = [_flank(flanks.sel(flank=name), str(name)) for name in flanks["flank"].values]
+    names = [str(name) for name in flanks["flank"].values]
+    found = [_answer(flanks, names)] if names else []
     if not found:
         found = [Finding(NOTE, "No deviations of flanks were given, so the flanks are nominal.")]
     if "setting" in flanks:
@@ -41,21 +42,21 @@ def flank_findings(flanks: xr.Dataset) -> list[Finding]:
     return found
 
 
-def _flank(part: xr.Dataset, name: str) -> Finding:
-    deviation = _MICRO * part["deviation"].values
-    deviation = deviation[np.isfinite(deviation)]
-    largest = float(deviation[np.argmax(np.abs(deviation))])
-    rest, apart = (float(part[one]) for one in ("rest_rms", "scatter_rms"))
-    rough = rest > _COARSE
+def _answer(flanks: xr.Dataset, names: list[str]) -> Finding:
+    size = [float(np.abs(_MICRO * flanks["deviation"].sel(flank=name)).max()) for name in names]
+    worst = int(np.argmax(size))
+    rest, apart = (_MICRO * float(flanks[one].max()) for one in ("rest_rms", "scatter_rms"))
+    rough = [name for name in names if float(flanks["rest_rms"].sel(flank=name)) > _COARSE]
     return Finding(
         WARNING if rough else GOOD,
-        f"{name[:1].upper()}{name[1:]} deviates by at most {quantity_text(largest, 'µm')}, "
-        f"{quantity_text(float(np.sqrt(np.mean(deviation**2))), 'µm')} rms; a surface of degree "
-        f"{part.attrs['degree']} leaves {quantity_text(_MICRO * rest, 'µm', 2)} rms.",
-        f"Mean of {int(part['teeth'])} teeth, which are {quantity_text(_MICRO * apart, 'µm', 2)} "
-        "rms from it."
+        f"The flanks are up to {quantity_text(size[worst], 'µm')} from nominal, on "
+        f"{names[worst]}; a smooth surface of degree {flanks.attrs['degree']} leaves at most "
+        f"{quantity_text(rest, 'µm', 2)} rms of it.",
+        "Means of the measured teeth, which are up to "
+        f"{quantity_text(apart, 'µm', 2)} rms from their mean."
         + (
-            " The rest is as large as a mesh order: raise the degree, or look for a wrong point."
+            f" On {', '.join(rough)} the rest is as large as a mesh order: raise the degree, or "
+            "look for a wrong point."
             if rough
             else ""
         ),
@@ -94,15 +95,21 @@ def _unit(unit: object) -> str:
 
 def flank_numbers(flanks: xr.Dataset) -> list[Number]:
     """Return the key numbers of measured flanks, with the same names in every run."""
-    found = []
-    for name in flanks["flank"].values:
-        part = _MICRO * flanks.sel(flank=name)[["deviation", "rest_rms", "scatter_rms"]]
-        found += [
-            Number(f"largest deviation, {name}", float(np.abs(part["deviation"]).max()), "µm"),
-            Number(f"rest of the smooth surface, {name}", float(part["rest_rms"]), "µm rms"),
-            Number(f"teeth from their mean, {name}", float(part["scatter_rms"]), "µm rms"),
-        ]
-    return found
+    if not flanks.sizes["flank"]:
+        return []
+    rest, apart = (_MICRO * float(flanks[one].max()) for one in ("rest_rms", "scatter_rms"))
+    return [
+        *(
+            Number(
+                f"largest deviation, {name}",
+                float(np.abs(_MICRO * flanks["deviation"].sel(flank=name)).max()),
+                "µm",
+            )
+            for name in flanks["flank"].values
+        ),
+        Number("rest of the smooth surface, at most", rest, "µm rms"),
+        Number("teeth from their mean, at most", apart, "µm rms"),
+    ]
 
 
 def members_of(teeth: xr.Dataset) -> list[str]:

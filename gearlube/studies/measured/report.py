@@ -27,6 +27,7 @@ _MICRO = 1e6
 def flank_report(flanks: xr.Dataset, picture: Path) -> Report:
     """Return the report of measured flanks; `picture` is the PNG of them."""
     attributes = flanks.attrs
+    top = max(_MICRO * float(np.abs(flanks["deviation"]).max()), 1e-3)
     tables = [_settings_table(flanks)] if "setting" in flanks else []
     return Report(
         study="measured",
@@ -35,8 +36,9 @@ def flank_report(flanks: xr.Dataset, picture: Path) -> Report:
         f"degree {attributes['degree']} are added to the nominal flanks.",
         findings=flank_findings(flanks),
         numbers=flank_numbers(flanks),
+        main_figures=[str(name).replace(" ", "_") for name in flanks["flank"].values],
         figures=[
-            *(_map(flanks, str(name)) for name in flanks["flank"].values),
+            *(_map(flanks, str(name), top) for name in flanks["flank"].values),
             Figure(
                 name="flanks",
                 title="Deviations, smooth surfaces and what they leave",
@@ -58,11 +60,10 @@ def flank_report(flanks: xr.Dataset, picture: Path) -> Report:
     )
 
 
-def _map(flanks: xr.Dataset, name: str) -> Figure:
+def _map(flanks: xr.Dataset, name: str, top: float) -> Figure:
     part = flanks.sel(flank=name)
     rows, columns = (np.isfinite(part["s"].values).any(axis=axis) for axis in (1, 0))
     values = _MICRO * part["deviation"].values[rows][:, columns]
-    top = max(float(np.max(np.abs(values))), 1e-3)
     chart = heat_map(
         part["t"].values[0, columns],
         part["s"].values[rows, 0],
@@ -75,7 +76,8 @@ def _map(flanks: xr.Dataset, name: str) -> Figure:
     return Figure(
         name=name.replace(" ", "_"),
         title=f"Deviation of the {name} flank",
-        caption="Mean of the measured teeth from nominal; red: more material.",
+        caption="Mean of the measured teeth from nominal; red: more material. All flanks have one "
+        "scale.",
         chart=chart,
     )
 

@@ -57,7 +57,7 @@ def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
         f"at {torques} N·m, with {'no' if count == 0 else count} errors of assembly and "
         f"making, aim {attributes['aim']}. All numbers come from the full loaded analysis "
         f"with {sizes['phase']} mesh phases; errors are rotations of the pinion.",
-        findings=[*remark_findings(attributes), *findings(dataset)],
+        findings=[*findings(dataset), *remark_findings(attributes)],
         numbers=numbers(dataset),
         figures=_figures(dataset),
         tables=[_values(dataset), _measures(dataset), *_error_tables(dataset)],

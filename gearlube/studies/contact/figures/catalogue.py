@@ -51,7 +51,7 @@ def _pair_figure(
             phase = (part["phase"].values[:, None] + part["pair"].values).ravel()
             order = np.argsort(phase)
             for ax, (name, label, scale) in zip(axes[:, column], rows, strict=True):
-                for row, torque in enumerate(_spread(part["torque"].values, 5)):
+                for row, torque in enumerate(_spread(part["torque"].values)):
                     state = part.sel(torque=torque)
                     values = np.where(
                         state["share"].values > _LOADED, scale * state[name].values, np.nan
@@ -186,7 +186,7 @@ def _stiffness_and_radii(dataset: xr.Dataset) -> Any:
         for column, side in enumerate(_SIDES):
             part = dataset.sel(side=side)
             for ax, (name, label, scale) in zip(axes[:, column], rows, strict=True):
-                for row, torque in enumerate(_spread(part["torque"].values, 5)):
+                for row, torque in enumerate(_spread(part["torque"].values)):
                     values = scale * part[name].sel(torque=torque).values
                     x, y = _two_periods(part["phase"].values, values)
                     ax.plot(x, y, color=SERIES[row], label=f"{torque:g} N·m")
@@ -204,7 +204,7 @@ def _stiffness_and_radii(dataset: xr.Dataset) -> Any:
 
 
 def _loaded(ax: Any, part: xr.Dataset) -> None:
-    for row, torque in enumerate(_spread(part["torque"].values, 5)):
+    for row, torque in enumerate(_spread(part["torque"].values)):
         state = part.sel(torque=torque)
         error = 1e6 * float(state["R_p"].mean()) * state["rotation"].values
         x, y = _two_periods(part["phase"].values, error - error.mean())
@@ -242,8 +242,8 @@ CONTACT_CATALOGUE = {
     "load_share": Picture(
         _load_shares,
         "A tooth pair from entry to exit",
-        "Share of the torque that one pair carries, and its highest pressure. Pressure peaks at "
-        "entry or exit come from edge contact.",
+        "Share of the torque that one pair carries, and its highest pressure. Pressures of sharp "
+        "edges are left out, because they have no finite value.",
     ),
     "stiffness": Picture(
         _stiffness_and_radii,

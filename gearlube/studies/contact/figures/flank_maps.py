@@ -17,6 +17,7 @@ _SIDES = {"drive": "drive side", "coast": "coast side"}
 _INSIDE = 97.0  # percent of the loaded cells that the colours of the pressure span
 _PERIODS = Axis("pinion rotation", "mesh periods")
 _LOADED = 1e-3
+_TORQUES = 4  # that are drawn, at most; each has one colour in all figures
 
 
 def ease_off_map(dataset: xr.Dataset) -> Any:
@@ -50,7 +51,7 @@ def pressure_maps(dataset: xr.Dataset) -> Any:
     import matplotlib
 
     tooth = DrawnTooth.of_dataset(dataset)
-    torques = _spread(dataset["torque"].values, 4)
+    torques = _spread(dataset["torque"].values)
     top = inside_pressure(dataset)
     colours = matplotlib.colormaps["magma_r"].with_extremes(over=SKY)
     with house_style():
@@ -97,18 +98,18 @@ def _highest(values: Array, top: float) -> str:
     return f"up to {highest:.2f} GPa" + (" at an edge" if highest > top else "")
 
 
-def _spread(values: Any, count: int) -> list[float]:
-    chosen = np.unique(np.linspace(0, len(values) - 1, min(count, len(values))).astype(int))
+def _spread(values: Any) -> list[float]:
+    chosen = np.unique(np.linspace(0, len(values) - 1, min(_TORQUES, len(values))).astype(int))
     return [float(values[i]) for i in chosen]
 
 
 def transmission_chart(dataset: xr.Dataset) -> Any:
     """Return the loaded transmission error of both sides over two mesh periods, mean removed."""
-    y = Axis("closing minus its mean", "µm")
+    y = Axis("transmission error minus its mean", "µm")
     figure = panels([_SIDES[side] for side in _SIDES], _PERIODS, [y, y])
     for panel, side in enumerate(_SIDES, 1):
         part = dataset.sel(side=side)
-        for number, torque in enumerate(_spread(part["torque"].values, 5)):
+        for number, torque in enumerate(_spread(part["torque"].values)):
             error = loaded_error(part.sel(torque=torque))
             x, values = two_periods(part["phase"].values, error)
             line = Line(name=f"{torque:g} N·m", x=x, y=values, group=number)
@@ -130,11 +131,12 @@ def load_share_chart(dataset: xr.Dataset) -> Any:
     part = dataset.sel(side="drive")
     phase = (part["phase"].values[:, None] + part["pair"].values).ravel()
     order = np.argsort(phase)
-    for number, torque in enumerate(_spread(part["torque"].values, 5)):
+    for number, torque in enumerate(_spread(part["torque"].values)):
         state = part.sel(torque=torque)
-        carries = state["share"].values > _LOADED
+        carries = (state["share"].values > _LOADED, state["pressure_max"].values < EDGE_PRESSURE)
         for panel, (name, scale) in enumerate((("share", 100.0), ("pressure_max", 1e-9)), 1):
-            values = np.where(carries, scale * state[name].values, np.nan).ravel()[order]
+            shown = carries[0] & carries[1] if name == "pressure_max" else carries[0]
+            values = np.where(shown, scale * state[name].values, np.nan).ravel()[order]
             line = Line(name=f"{torque:g} N·m", x=phase[order], y=values, group=number)
             place = {"legendgroup": line.name, "showlegend": panel == 1, "row": panel, "col": 1}
             add_line(figure, line, number, _PERIODS, y[panel - 1], **place)
@@ -153,10 +155,11 @@ def stiffness_chart(dataset: xr.Dataset) -> Any:
         part = dataset.sel(side=side)
         for dash, (name, what) in enumerate((("k_m", "secant"), ("k_t", "tangent"))):
             mean = 1e-6 * part[name].mean("phase").values
-            line = Line(name=f"{side}, {what}", x=torque, y=mean, group=number, dash=dash)
-            add_line(figure, line, number, x, y[0], row=1, col=1)
+            look = _TORQUES + number  # colours that no torque has
+            line = Line(name=f"{side}, {what}", x=torque, y=mean, group=look, dash=dash)
+            add_line(figure, line, look, x, y[0], row=1, col=1)
         pairs = (part["share"] > _LOADED).sum("pair").mean("phase").values
-        line = Line(name=f"{side}, pairs", x=torque, y=pairs, group=number)
+        line = Line(name=f"{side}, pairs", x=torque, y=pairs, group=_TORQUES + number)
         add_line(figure, line, number, x, y[1], row=2, col=1, showlegend=False)
     figure.update_yaxes(rangemode="tozero")
     return figure

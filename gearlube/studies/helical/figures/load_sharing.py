@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -104,82 +103,6 @@ def _one_pair(ax: Any, contact: xr.Dataset) -> None:
     )
     ax.set(xlim=(-0.5, line[-1] + 1.0), xlabel="mesh periods since it enters the plane of contact")
     ax.set_title("one pair from entry to exit")
-
-
-def constant_stiffness(contact: xr.Dataset) -> Any:
-    """Return stiffness functions with one density, and the zones of each pair.
-
-    Compare [he_2007 fig. 3] [he_2007 fig. 4].
-    """
-    with house_style():
-        figure = new_figure(9.0, 6.4)
-        top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": (2.6, 1.0)})
-        phase = contact["zone_phase"].values
-        values = _MEGA * contact["K_line_constant"].values
-        total = values.sum(axis=1)
-        top.plot(phase, total, color="black", lw=2.4, label="all pairs")
-        for row, line in enumerate(contact["constant_line"].values):
-            colour = SERIES[row % len(SERIES)]
-            top.plot(phase, values[:, row], color=colour, label=f"pair {line}")
-        _zones(bottom, contact)
-        top.set_ylim(0.0, 1.1 * total.max())
-        top.set_ylabel("stiffness along x [N/µm]")
-        bottom.set_xlabel("time [mesh periods]")
-        bottom.set_xlim(0.0, 1.0)
-        figure.legend(*top.get_legend_handles_labels(), ncols=4, loc="outside lower center")
-        figure.suptitle(
-            f"Tooth stiffness with {1e-9 * contact.attrs['density']:.4g} N/(µm·mm) along all "
-            f"contact lines: {contact.attrs['name']}",
-            fontsize=11.5,
-        )
-    return figure
-
-
-_SIDES = {"before": "#BFD9EA", "across": "#F6D9A8", "past": "#C9E7DB", "none": "#F2F2F2"}
-
-
-def _zones(ax: Any, contact: xr.Dataset) -> None:
-    """Draw, for each pair, where its line lies; a new zone begins where an end changes course."""
-    at = contact.attrs
-    A, D, P = at["contact_start"], at["contact_end"], at["pitch_point"]
-    lag, pitch = at["line_lag"], at["base_pitch"]
-    edges = sorted({P, D, A + lag, P + lag, D + lag})
-    number = 0
-    for line in contact["constant_line"].values:
-        low, high = A + line * pitch, A + (line + 1) * pitch
-        cuts = [low, *(edge for edge in edges if low < edge < high), high]
-        for first, last in pairwise(cuts):
-            number += 1
-            middle = 0.5 * (first + last)
-            if middle > D + lag:
-                where = "none"
-            elif middle < P:
-                where = "before"
-            else:
-                where = "across" if middle - lag < P else "past"
-            start, width = (first - low) / pitch, (last - first) / pitch
-            ax.broken_barh(
-                [(start, width)], (line - 0.4, 0.8), facecolor=_SIDES[where], edgecolor="#606060"
-            )
-            if width > 0.02:
-                ax.text(start + 0.5 * width, line, str(number), ha="center", va="center")
-            else:
-                ax.annotate(
-                    str(number),
-                    (start + 0.5 * width, line),
-                    xytext=(8, 0),
-                    textcoords="offset points",
-                    ha="left",
-                    va="center",
-                    arrowprops={"arrowstyle": "-", "lw": 0.6},
-                )
-    ax.set_yticks(contact["constant_line"].values)
-    ax.set_yticklabels([f"pair {line}" for line in contact["constant_line"].values])
-    ax.grid(False)
-    ax.set_title(
-        "zones; line before (blue), across (sand), past (green) the pitch line, gone (grey)",
-        fontsize=9,
-    )
 
 
 def load_sharing(contact: xr.Dataset) -> Any:
