@@ -1,4 +1,4 @@
-"""What drives the propshaft: engine or electric motor with its torque orders, and a gearbox."""
+"""Drive of the propshaft: engine or electric motor with its torque orders, and a gearbox."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ _TOLERANCE = 1e-6  # K
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cooling:
-    """What the air takes from an axle in a car that drives.
+    """Cooling of an axle by air in a moving car.
 
     Parameters
     ----------

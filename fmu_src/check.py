@@ -18,14 +18,14 @@ class _Collector(logging.Handler):
 
 
 def fmpy_problems(path: Path) -> list[str]:
-    """Return what FMPy finds: schema, names, structure, start values, units."""
+    """Return the findings of FMPy: schema, names, structure, start values, units."""
     from fmpy.validation import validate_fmu
 
     return [f"fmpy: {problem}" for problem in validate_fmu(str(path))]
 
 
 def fmutool_problems(path: Path) -> list[str]:
-    """Return what `fmutool -check` finds: schema and the rules of FMI 2.0, section 2.2."""
+    """Return the findings of `fmutool -check`: schema and the rules of FMI 2.0, section 2.2."""
     try:
         from fmu_manipulation_toolbox.checker import get_checkers
         from fmu_manipulation_toolbox.operations import FMU

@@ -30,7 +30,7 @@ class Model(Stepped, Protocol):
     """Interface of a running model that a slave steps."""
 
     def exceeded(self) -> Mapping[str, str]:
-        """Return what is outside its range now: a sentence for each, by the output's name."""
+        """Return the quantities out of range now: a sentence for each, by the output's name."""
 
     def get_state(self) -> Array:
         """Return the whole state, enough to continue from it."""

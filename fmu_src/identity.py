@@ -1,4 +1,4 @@
-"""What gives equal sources equal FMUs: a GUID of interface and sources, and zips without dates."""
+"""Equal FMUs from equal sources: a GUID of interface and sources, and zips without dates."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ from numba.np import arrayobj
 
 
 class Target(NamedTuple):
-    """What object code is made for.
+    """Target of object code.
 
     Parameters
     ----------

@@ -68,7 +68,7 @@ class TrainModel:
         self._train.step(h, dict(zip(self._ports, torques, strict=True)), temperature)
 
     def exceeded(self) -> Mapping[str, str]:
-        """Return what is outside its range now: a sentence for each, by the output's name."""
+        """Return the quantities out of range now: a sentence for each, by the output's name."""
         return self._train.exceeded()
 
     def get_state(self) -> Array:

@@ -182,7 +182,7 @@ def declared_outputs(outputs: Iterable[Output]) -> tuple[Variable, ...]:
 
 
 def declared_locals(outputs: Iterable[Output]) -> tuple[Variable, ...]:
-    """Return what a model declares that a solver needs and no connection."""
+    """Return the locals of a model that solvers need."""
     return tuple(local(one.name, one.unit, one.text, one.nominal, one.shown) for one in outputs)
 
 
@@ -310,7 +310,7 @@ def oil_name() -> Variable:
 
 
 def speed_hold(start: float) -> tuple[Variable, ...]:
-    """Return what holds the speed of the pinion; `start` is the reference at the start [rad/s]."""
+    """Return the variables that hold the pinion's speed; `start` is the first reference [rad/s]."""
     hold = option("speed.hold", "What holds the speed of the pinion: nothing, a governor, whose "
                   "torque is its gain times the error of the speed, or an imposed motion",
                   *get_args(Hold), start="none", argument="mode")  # fmt: skip

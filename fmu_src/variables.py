@@ -281,7 +281,7 @@ _FILM = (
     option("film.model", "Film and oil friction of the flanks: by formulas, or by a model of "
            "solved films", *FILM_MODELS, start="formula", argument="film"),
     _number("film_limiting_slope", "film.limiting_slope", "Limiting shear stress of a solved film "
-            "over pressure; 0: none. Near it the formulas come in", nominal=0.1),
+            "over pressure; 0: none. Near it formulas are used", nominal=0.1),
 )  # fmt: skip
 _FILM_OUTPUTS = (
     output("film.share_outside", "1", "Share of the flanks' load outside the domain of the model "
@@ -292,7 +292,7 @@ _FILM_OUTPUTS = (
       for name, words in (("film", "film thickness"), ("friction", "friction"))),
     output("friction.power_loss_bound", "W", "Bound of friction.power_loss by those of the flanks; "
            "0 with formulas", 10.0),
-    output("efficiency_bound", "1", "The same of efficiency", 0.001),
+    output("efficiency_bound", "1", "Bound of efficiency by friction.power_loss_bound", 0.001),
 )  # fmt: skip
 # rollers by a model of solved films
 _ROLLER_OUTPUTS = (

@@ -142,7 +142,7 @@ def _loaded_libraries() -> list[str]:
 
 @contextmanager
 def told_on_stderr(instance: str) -> Iterator[None]:
-    """Write what stops an instantiation to standard error: the wrapper tells it only to a logger.
+    """Write the reason of a failed instantiation to standard error; the wrapper only logs it.
 
     A host that has not asked for logging would see no more than a null pointer.
     """

@@ -34,7 +34,7 @@ RADIUS = 0.01  # m, along the short axis
 REDUCED_MODULUS = 2.26e11  # Pa
 ALPHA = 2e-8  # 1/Pa
 ETA0 = 0.04  # Pa s
-_LIMITED = 0.01  # share of first-order faces from which a film is told apart
+_LIMITED = 0.01  # share of first-order faces from which a film is listed apart
 HAMROCK_DOWSON, CHITTENDEN = "Hamrock and Dowson 1977", "Chittenden et al. 1985"
 NIJENBANNING = "Nijenbanning et al. 1994"
 

@@ -62,7 +62,7 @@ def _state(page: Page, films: Films) -> None:
     limited = [f for f in found if f.converged and f.wedge == "upwind-2" and not f.sound]
     both = [c for c in map_contacts() if {(c, COARSE), (c, FINE)} <= films.keys()]
     errors = [[100.0 * grid_error(films, c, q) for c in both] for q in (CENTRAL, MINIMUM)]
-    told = [f"{one:.1f}" for some in errors for one in (statistics.median(some), max(some))]
+    listed = [f"{one:.1f}" for some in errors for one in (statistics.median(some), max(some))]
     page.fill(
         f"Of {{}} contacts on {FINE} by {FINE} nodes {{}} did not converge{{}} have a film with "
         "the first-order stencil alone{} have more than 1 % of first-order {}. They took {} "
@@ -75,7 +75,7 @@ def _state(page: Page, films: Films) -> None:
         f"faces{_named(limited)}",
         f"{sum(film.seconds for film in found):.0f}",
         f"{statistics.median(f.seconds for f in found):.1f}",
-        *told,
+        *listed,
     )
 
 

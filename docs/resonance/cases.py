@@ -152,7 +152,7 @@ def settled(parameters: HypoidTorsionalParameters, relative: float) -> tuple[flo
 
 
 def double_counts() -> list[tuple[float, ...]]:
-    """Return claim 14: a mismatch of the radii told as a transmission error.
+    """Return claim 14: a mismatch of the radii expressed as a transmission error.
 
     Mismatch [-], mesh over natural frequency, error R_p0 d/z [m]; peak to peak [m] with the radii,
     and with the error instead in 2-DOF and in 1-DOF.

@@ -305,7 +305,7 @@ class AxleFile(InputFile):
         return replace(base, **self.driveline.changes(base))
 
     def _gear_file_notes(self, mesh: MeshTable) -> list[InputNote]:
-        """Return what the gear file became."""
+        """Return the notes on the gear file's conversion."""
         notes = [
             InputNote(
                 "gear_set.mesh_table", mesh.name, "", "inferred", "loaded contact of gear_file"
@@ -355,12 +355,12 @@ class AxleFile(InputFile):
         notes += self.gearbox.gearbox_notes("gearbox.", car.gearbox)
         notes += self.engine.engine_notes("engine.", car.engine)
         notes += self.driveline.notes("driveline.", car, _CAR)
-        doubtful = self.doubts()
-        return [note._replace(why=doubtful.get(note.field, note.why)) for note in notes]
+        unusual = self.unusual_numbers()
+        return [note._replace(why=unusual.get(note.field, note.why)) for note in notes]
 
 
 def _fit_notes(fit: GreenwoodTrippFit) -> list[InputNote]:
-    """Return what the asperity table became, and how far it is missed."""
+    """Return the law fitted to the asperity table, and its misfit."""
     why = (
         f"fit to asperity_table; within h/sigma 0.5 to 3 it misses the load by a factor of "
         f"{fit.load_misfit:.3g} at most, the area by {fit.area_misfit:.3g}"

@@ -137,7 +137,7 @@ class GearSet(ModelSection):
 
     @property
     def named(self) -> str:
-        """What names the gears: a gear file, the file of a mesh table, or a shipped one."""
+        """Name of the gears: a gear file, the file of a mesh table, or a shipped one."""
         return self.gear_file or self.mesh_table or ""
 
     @model_validator(mode="after")

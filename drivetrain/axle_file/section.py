@@ -33,7 +33,7 @@ class PartField(NamedTuple):
     default: Any  # in SI units; MISSING: it must be given
 
     def problem(self, key: str, value: Any) -> str:
-        """Return what is wrong with a value in the file; "" for nothing."""
+        """Return the error of a value in the file; "" for none."""
         if isinstance(value, bool | str) or not isinstance(value, float | int):
             return f"{key} must be a number, got {value!r}; {self.number.text}"
         try:

@@ -1,4 +1,4 @@
-"""What a drive cycle asks of the shaft that drives a car."""
+"""Demand of a drive cycle on the shaft that drives a car."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _WHEELS = 4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Demand:
-    """What the driven shaft of a car carries in each step; arrays of shape (n,).
+    """Load of the driven shaft of a car in each step; arrays of shape (n,).
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ INDEX = {name: index for index, name in enumerate(STATES)}
 POWERS = ("engine", "pinion", "ring_gear", "road", "dissipated")
 _REST = 0.05  # m/s, below which the rolling resistance fades to zero
 _CYCLE = 4.0 * math.pi  # rad, four strokes
-LONGEST_INNER_STEP = 2.5e-4  # s; modes stay below 350 Hz, RK4 then errs by 1e-5 at most
+LONGEST_INNER_STEP = 2.5e-4  # s; modes stay below 350 Hz, the error of RK4 is then 1e-5 at most
 
 # Memory behind the states: energies [J], the torques of the last interval [N m], the angles that
 # the axle was expected to reach [rad], and whether these exist (0 before the first step, else 1).

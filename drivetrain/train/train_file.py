@@ -32,7 +32,7 @@ from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm, rpm_to_rads
 _NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
 _RESERVED = ("oil", "range", "energy", "efficiency", "start")  # words of the FMU's own variables
 _PARTS = ("bodies", "elements")
-_TOLD, _SHOWN = 20, 80  # wrong fields in an error, signs of a wrong text
+_LISTED, _SHOWN = 20, 80  # wrong fields in an error, signs of a wrong text
 Text = Annotated[str, Field(min_length=1)]
 _FASTEST = rads_to_rpm(MAX_SPEED)
 _NO_MODE = 0.5  # Hz, below which nothing brings a motion back: bearings and mounts have more
@@ -170,9 +170,9 @@ class TrainFile(InputFile):
         found = super().from_data(data | whole, where)
         wrong = found._parts()[2]
         if wrong:
-            more = f" And {len(wrong) - _TOLD} more." if len(wrong) > _TOLD else ""
+            more = f" And {len(wrong) - _LISTED} more." if len(wrong) > _LISTED else ""
             raise ParameterError(
-                f"{where} has {len(wrong)} wrong field(s). {' '.join(wrong[:_TOLD])}{more}"
+                f"{where} has {len(wrong)} wrong field(s). {' '.join(wrong[:_LISTED])}{more}"
             )
         try:
             found.case()

@@ -1,4 +1,4 @@
-"""What of an axle's constants depends on its mesh table and oils, and what they must be to be used.
+"""Constants of an axle that depend on its mesh table and oils, and their checks.
 
     DataSizes | packed floats of the start values | without losses | numbers of the train |
     film models | sensitivities of the losses | options | rows | numbers | levels |
@@ -118,7 +118,7 @@ def mesh_data(axle: HypoidAxleParameters) -> tuple[PackedMesh, list[Array], list
 
 
 class AxleStructure(NamedTuple):
-    """What all axles of a kind have in common, as whole numbers."""
+    """Whole numbers that all axles of a kind have in common."""
 
     parameters: int
     # places in data, as in `_Places` of `hypoid_axle`

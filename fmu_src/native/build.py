@@ -60,7 +60,7 @@ the same bytes if its inputs are the same.
 
 @dataclass(frozen=True, kw_only=True)
 class NativeOptions:
-    """What a native FMU is built for.
+    """Options of a native FMU's build.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What only gear files, line meshes and oils decide of HelicalPair.fmu, as one array of constants.
+"""Constants of HelicalPair.fmu that only gear files, line meshes and oils decide, as one array.
 
     places of the cases | film model of shipped pairs | of the custom one | oils | case | case | ...
 

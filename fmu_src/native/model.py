@@ -1,4 +1,4 @@
-"""What a model hands to the native FMU: one compiled entry, constant data, sizes and words."""
+"""Parts of a model for the native FMU: one compiled entry, constant data, sizes and words."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ OK = 0
 
 @dataclass(frozen=True, kw_only=True)
 class Exchange:
-    """What model exchange needs of a model.
+    """Data of a model for model exchange.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Exchange:
 
 
 class Operation(IntEnum):
-    """What the entry of a model is asked to do."""
+    """Requests to the entry of a model."""
 
     START = 0  # parameters and inputs -> work, state in static equilibrium, outputs
     STEP = 1  # state and inputs -> state one communication step later, outputs unless lazy

@@ -55,7 +55,7 @@ def _places(variables: Sequence[Variable], output_names: Sequence[str]) -> list[
 
 
 def _needs(variable: Variable, model: NativeModel) -> int:
-    """Return what has to be computed before a variable is read."""
+    """Return the computation that a variable needs before it is read."""
     if not variable.is_computed:
         return _NOTHING
     if variable.name in model.motion:

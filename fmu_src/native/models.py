@@ -15,5 +15,5 @@ _MODELS: dict[str, Callable[[Definition], NativeModel]] = {
 
 
 def native_model(definition: Definition) -> NativeModel:
-    """Return what a native FMU of a definition is made of."""
+    """Return the parts of a native FMU of a definition."""
     return _MODELS[definition.name](definition)

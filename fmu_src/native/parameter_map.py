@@ -32,7 +32,7 @@ Pack = Callable[[Mapping[str, Value]], Array]  # parameters by `Variable.argumen
 
 
 class AxleSettings(NamedTuple):
-    """What else of an axle a parameter can change, packed behind its `AxleParameters`."""
+    """Other data of an axle that a parameter can change, packed behind its `AxleParameters`."""
 
     torque_low: float  # N.m, limits of the inputs in their order
     torque_high: float
@@ -197,7 +197,7 @@ def write_packed(
 
 
 class KernelClasses(NamedTuple):
-    """What the kernels of a model are compiled for."""
+    """Classes for which the kernels of a model are compiled."""
 
     bearing: type[ShaftBearings]
     law: type[FlankLaw]

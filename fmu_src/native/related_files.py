@@ -1,4 +1,4 @@
-"""What a native FMU says about itself: experiment, parameter sets, limits, report, meta-data.
+"""Self-description of a native FMU: experiment, parameter sets, limits, report, meta-data.
 
 The files obey FMI-LS-REF 1.0.0-beta.1 (manifest), SSP 1.0 and 2.0 (.ssv) and SSP Traceability
 1.0.0-rc.2 (.srmd). All follow from the table of variables and from one run of the Python model.

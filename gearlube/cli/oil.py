@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gearlube_core.friction.traction_measurements import TractionMeasurements
     from gearlube_core.oil.oil_file import DescribedOil
 
-_DOUBT = 3.5  # standard deviations of a curve's mean: the worst of ten curves by chance 1 in 200
+_LIMIT = 3.5  # standard deviations of a curve's mean: the worst of ten curves by chance 1 in 200
 
 
 class _ShowByDefault(TyperGroup):
@@ -48,7 +48,7 @@ def _oil() -> None:
 
 
 def _fit_lines(measured: TractionMeasurements, found: TractionFit) -> list[str]:
-    """Return what was found, how well, and in which range it was measured."""
+    """Return the result, its fit, and the measured range."""
     lines = [_stress("Eyring stress", 1e-6 * found.eyring_stress, " MPa", found.eyring_factor)]
     if math.isnan(found.limiting_coefficient):
         greatest = float(measured.traction.max())
@@ -75,7 +75,7 @@ def _fit_lines(measured: TractionMeasurements, found: TractionFit) -> list[str]:
     lines.append(f"Films by formula: {thin:.0f} to {thick:.0f} nm; roughness must be far below")
     if found.out_of_range:
         lines.append(f"{found.out_of_range} points are outside the range of the law.")
-    if abs(found.curve_misfit) > _DOUBT * found.residual / math.sqrt(len(measured) / curves):
+    if abs(found.curve_misfit) > _LIMIT * found.residual / math.sqrt(len(measured) / curves):
         lines.append(
             "The law misses a curve by more than scatter: the factors are too small. Film, alpha "
             "or temperature may be wrong; see docs/oil_file.md."

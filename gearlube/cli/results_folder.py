@@ -170,7 +170,7 @@ def _check_owner(out: Path, mine: dict[str, Any], compared: set[str] | None) -> 
 
 
 def _key(value: Any) -> Any:
-    """Return what two inputs are compared by: a file may have another name."""
+    """Return the key by which two inputs are compared: a file may have another name."""
     if isinstance(value, list):
         return [_key(one) for one in value]
     return value.get("sha256") if isinstance(value, dict) else value

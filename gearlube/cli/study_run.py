@@ -1,4 +1,4 @@
-"""What surrounds a study in its command: messages, exit codes, folder, bar, report, findings."""
+"""Frame of a study in its command: messages, exit codes, folder, bar, report, findings."""
 
 from __future__ import annotations
 

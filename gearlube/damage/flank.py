@@ -1,4 +1,4 @@
-"""What one load does to flanks, along the engagement and on the drawn tooth."""
+"""Stress, film and wear of flanks under one load, along the engagement and on the tooth."""
 
 from __future__ import annotations
 

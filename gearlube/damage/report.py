@@ -96,7 +96,7 @@ def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = 
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
-    """Return what the run says, the most important first."""
+    """Return the findings, the most important first."""
     found = [
         Finding(WARNING, f"{row[0]}: {row[5]}, {row[1]}.", f"By {row[6]}.")
         for row in json.loads(dataset.attrs["summary"])
@@ -109,7 +109,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         *(Finding(NOTE, *words) for words in json.loads(dataset.attrs["notes"])),
         *_worst(dataset),
         *_worn(dataset),
-        *_doubts(dataset),
+        *_warnings(dataset),
         *(Finding(WARNING, words) for words in outside),
     ]
 
@@ -163,7 +163,7 @@ def _worst(dataset: xr.Dataset) -> list[Finding]:
 
 
 def _worn(dataset: xr.Dataset) -> list[Finding]:
-    """Return what steps of wear made of contact and noise."""
+    """Return the effect of steps of wear on contact and noise."""
     if "worn_life" not in dataset:
         return []
     steps, life = dataset.sizes["step"] - 1, float(dataset["worn_life"][-1])
@@ -190,8 +190,8 @@ def _worn(dataset: xr.Dataset) -> list[Finding]:
     ]
 
 
-def _doubts(dataset: xr.Dataset) -> list[Finding]:
-    """Return what limits the solved numbers."""
+def _warnings(dataset: xr.Dataset) -> list[Finding]:
+    """Return the limits of the solved numbers."""
     hours, edge = dataset["hours"].values, dataset["at_edge"].values
     time = hours / hours.sum()
     thin = 100.0 * time[dataset["film_ratio"].values < 1.0].sum()
@@ -201,7 +201,7 @@ def _doubts(dataset: xr.Dataset) -> list[Finding]:
     below = 100.0 * time[dataset["film_ratio"].values < least].sum()
     slow = int((dataset["peclet"].values < _LEAST_PECLET).sum())
     beyond = int((np.abs(dataset["torque"].values) > dataset.attrs["table_torque_n_m"]).sum())
-    told = (
+    listed = (
         (
             edge.max() > _MUCH, WARNING,
             f"Edges of teeth press: up to {100.0 * edge.max():.0f} % of the load, in the bin "
@@ -253,7 +253,7 @@ def _doubts(dataset: xr.Dataset) -> list[Finding]:
             "The rise of temperature there is less than shown.",
         ),
     )  # fmt: skip
-    return [Finding(level, *words) for holds, level, *words in told if holds]
+    return [Finding(level, *words) for holds, level, *words in listed if holds]
 
 
 def _numbers(dataset: xr.Dataset) -> list[Number]:

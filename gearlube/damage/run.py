@@ -212,7 +212,7 @@ def run_damage(
 def _solved(
     settings: DamageSettings, teeth: Teeth, rate: Rate | None, place: int, cycles: Array
 ) -> dict[str, Any]:
-    """Return what a bin has, by the names of `_OF_BINS`, and its maps."""
+    """Return the values of a bin, by the names of `_OF_BINS`, and its maps."""
     at = [float(one[place]) for one in settings.bins[:3]]
     states = teeth.states(*at)
     found = flank_damage(

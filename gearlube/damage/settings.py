@@ -1,4 +1,4 @@
-"""What a damage run takes: an axle, its life in bins, materials, bearings."""
+"""Settings of a damage run: an axle, its life in bins, materials, bearings."""
 
 from __future__ import annotations
 

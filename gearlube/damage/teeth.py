@@ -1,4 +1,4 @@
-"""What a damage run takes of the teeth that mesh, and the teeth of an axle."""
+"""Data of the meshing teeth for a damage run, and the teeth of an axle."""
 
 from __future__ import annotations
 

@@ -89,8 +89,8 @@ def wear_in_steps(
     rows: list[dict[str, Any]] = []
     while True:
         worn = worn_gears(file, lost.sum(axis=1))
-        told = partial(_told, progress, len(rows), most)
-        found = analyse_contact(worn, contact, store=store, jobs=jobs, progress=told)
+        listed = partial(_reported, progress, len(rows), most)
+        found = analyse_contact(worn, contact, store=store, jobs=jobs, progress=listed)
         table = contact_table(worn, found)
         teeth = axle_teeth(replace(car, axle=replace(car.axle, mesh=table)), None)
         volumes, pressure, profile = _worn_volumes(settings, teeth, table.pinion_teeth)
@@ -118,7 +118,7 @@ def wear_in_steps(
     return xr.Dataset(variables_of(one), coords={"worn_phase": _PHASES})
 
 
-def _told(progress: Progress, step: int, most: int, share: float, words: str) -> None:
+def _reported(progress: Progress, step: int, most: int, share: float, words: str) -> None:
     progress((step + share) / (most + 1), f"wear step {step} of {most}: {words}")
 
 

@@ -1,4 +1,4 @@
-"""What reports call the ranges of formulas and tables that an axle can leave."""
+"""Names in reports of the ranges of formulas and tables that an axle can leave."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube_core.arrays import Array
 
-# [okabe_ito_2008], colours that people with colour vision deficiency tell apart.
+# [okabe_ito_2008], colours that people with colour vision deficiency distinguish.
 BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY = (
     "#0072B2",
     "#D55E00",

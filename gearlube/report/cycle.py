@@ -1,4 +1,4 @@
-"""What all studies of drive cycles have: steps, energies, and findings for a report."""
+"""Parts shared by all studies of drive cycles: steps, energies, and findings for a report."""
 
 from __future__ import annotations
 

@@ -228,7 +228,7 @@ def flank_friction(loss: xr.DataArray) -> xr.DataArray:
     return loss.sel(source=rubbing).sum("source")
 
 
-def efficiency_doubt(dataset: xr.Dataset) -> str:
+def efficiency_error(dataset: xr.Dataset) -> str:
     """Return a sentence on the largest `efficiency_bound` of a run; empty where none is known."""
     if "efficiency_bound" not in dataset:
         return ""

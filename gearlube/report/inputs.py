@@ -32,7 +32,7 @@ def noted_inputs(notes: Sequence[InputNote]) -> list[Input]:
 def file_inputs(file: InputFile) -> list[Input]:
     """Return the fields of an input file: what it gives, and the defaults of what it does not.
 
-    Fields that are empty, lists of tables or about the file itself are left out. A gear file tells
+    Fields that are empty, lists of tables or about the file itself are left out. A gear file gives
     itself which fields are inferred or completed.
 
     Examples
@@ -43,14 +43,14 @@ def file_inputs(file: InputFile) -> list[Input]:
     'given'
     """
     notes = field_notes(type(file))
-    doubtful = file.doubts()
+    unusual = file.unusual_numbers()
     given = dict(_flat(file.model_dump(exclude_unset=True)))
     found = []
     for name, value in _flat(file.model_dump(exclude_none=True, exclude=_OF_THE_FILE)):
         text = _text(value)
         if not text:
             continue
-        origin, why = (GIVEN, doubtful.get(name, "")) if name in given else (ASSUMED, "default")
+        origin, why = (GIVEN, unusual.get(name, "")) if name in given else (ASSUMED, "default")
         for kind, field in ((INFERRED, "inferred"), (ASSUMED, "completed")):
             reasons = getattr(file, field, {})
             for one in reasons:
@@ -62,7 +62,7 @@ def file_inputs(file: InputFile) -> list[Input]:
 
 
 def remark_attributes(file: InputFile) -> dict[str, str]:
-    """Return what a dataset keeps of the remarks and guesses of an input file, a line each."""
+    """Return the remarks and guesses of an input file that a dataset keeps, a line each."""
     return {"remarks": "\n".join(file.remarks()), "guessed": "\n".join(file.guesses())}
 
 

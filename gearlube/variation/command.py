@@ -138,8 +138,8 @@ def vary(
         given = varied_from(vary or [], chosen.keys)
         for axis in given.axes:
             note = chosen.keys[axis.key].note
-            if note is not None and (doubt := note.doubt(axis.values)):
-                logger.warning("--vary: %s", doubt)
+            if note is not None and (warning := note.warning(axis.values)):
+                logger.warning("--vary: %s", warning)
         limits = limits_from(limit or [], [one.name for one in chosen.quantities])
         if block is not None:
             check_within("--block", block, 1, MOST_BLOCK, "", "Leave it out for the default.")
@@ -191,7 +191,7 @@ def vary(
 
 
 def _listed(study: PointStudy) -> str:
-    """Return what can be varied and what is computed, one a line."""
+    """Return all inputs and results, one a line."""
     lines = ["Parameters (--vary):"]
     for key in study.keys.values():
         usual = "" if key.usual is None else f"; usually {key.usual}"

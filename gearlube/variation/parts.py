@@ -235,7 +235,7 @@ def _quantity(
     limit: float,
     seed: int,
 ) -> dict[str, Any]:
-    """Return what `scattered_parts` has of one quantity."""
+    """Return the variables of `scattered_parts` for one quantity."""
     good = np.isfinite(full)
     least = _least_runs(inputs.shape[1])
     if good.sum() < least:

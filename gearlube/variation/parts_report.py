@@ -1,4 +1,4 @@
-"""What many parts show: figures and findings of a report."""
+"""Report of many parts: figures and findings."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from gearlube_core.storage.atomic_file import write_compressed_dataset
 
 _BINS, _MOST_BARS, _LETTERS = 40, 12, 34
 _NAMED = 3  # tolerances in a sentence
-_DOUBT = 0.025  # chance of so few runs within bars that are right
+_LIMIT = 0.025  # chance of so few runs within bars that are right
 _LENGTHS = ("predicted", "full", "quick", "bar", "bias", "bias_error", "rms", "scatter", "limit")
 
 
@@ -153,7 +153,7 @@ def findings(results: xr.Dataset, many: xr.Dataset) -> list[Finding]:
         found.append(Finding(NOTE, f"The scatter of {name} is from, {pays}."))
         checks = int(cell["quick"].notnull().sum())
         inside = round(float(cell["coverage"]) * checks)
-        narrow = binom.cdf(inside, checks, 0.95) < _DOUBT
+        narrow = binom.cdf(inside, checks, 0.95) < _LIMIT
         bias, error, rms = (
             number_text(float(cell[one]), 2) for one in ("bias", "bias_error", "rms")
         )

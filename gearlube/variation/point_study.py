@@ -67,12 +67,12 @@ class PointStudy(Protocol):
 
     @property
     def keys(self) -> Keys:
-        """What can be varied."""
+        """Names of all parameters that can be varied."""
         ...
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
-        """What `compute` returns, in this order."""
+        """Quantities that `compute` returns, in this order."""
         ...
 
     @property

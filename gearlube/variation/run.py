@@ -32,13 +32,13 @@ logger = logging.getLogger(__name__)
 MOST_JOBS = 1024
 MOST_BLOCK = 1_000_000
 LEAST_BLOCKS = 16  # so that all processors have work and little is lost by a stop
-_TOLD = 3  # wrong points whose reasons are told
+_LISTED = 3  # wrong points whose reasons are listed
 _CHECKED_TOGETHER = 50  # between two reports
 
 
 @dataclass(frozen=True, slots=True)
 class VariationRun:
-    """What a run did.
+    """Outcome of a run.
 
     Parameters
     ----------
@@ -199,7 +199,7 @@ def check_all(study: PointStudy, design: Design, progress: Progress = no_progres
         except GearLubeError as error:
             wrong += 1
             values = ", ".join(f"{name} = {one}" for name, one in point.items())
-            if len(reasons) < _TOLD:
+            if len(reasons) < _LISTED:
                 reasons.setdefault(str(error).split(", got")[0], f"{error} At {values}.")
     if wrong:
         raise ParameterError(
@@ -210,7 +210,7 @@ def check_all(study: PointStudy, design: Design, progress: Progress = no_progres
 
 @dataclass(slots=True)
 class _Tally:
-    """Counts what arrives and tells the progress."""
+    """Counts what arrives and reports the progress."""
 
     store: BlockStore
     due: int

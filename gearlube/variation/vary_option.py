@@ -1,4 +1,4 @@
-"""What is typed after `--vary` and `--design`."""
+"""Parsing of the options `--vary` and `--design`."""
 
 from __future__ import annotations
 

@@ -154,7 +154,7 @@ def _rating_per_length(rollers: int, diameter: float, contact_angle: float, pitc
 
 
 class BearingFields(Section):
-    """What a drawing and a catalogue tell of a tapered roller bearing."""
+    """Data of a tapered roller bearing from a drawing and a catalogue."""
 
     bore_diameter_mm: Annotated[Diameter | None, BORE] = None
     outside_diameter_mm: Annotated[Diameter | None, OUTSIDE] = None

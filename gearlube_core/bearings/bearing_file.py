@@ -143,7 +143,7 @@ class RibSection(Section):
 
 
 class OperationSection(Section):
-    """What the study computes if the command says nothing else."""
+    """Default operation of the study."""
 
     speed_rpm: Speeds = Field(
         default=(500.0, 1000.0, 2000.0, 4000.0), description="Speeds of the shaft"
@@ -215,7 +215,7 @@ class BearingFile(InputFile):
         return None if named is None else chosen_model(named, ROLLER, "film_model")
 
     def inferred_notes(self) -> list[InputNote]:
-        """Return what follows for the rollers that the file leaves out."""
+        """Return the rollers that are inferred where the file leaves them out."""
         found, how = self.bearing.rollers_and_pitch()
         return [
             InputNote(f"bearing.{key}", value, unit, "inferred", how[key])

@@ -188,7 +188,7 @@ def bearing_types(wanted: str = "") -> Mapping[str, type[Bearing]]:
 
 
 class _Expanded(NamedTuple):
-    """What stands in the expansion of a type that has none: the oil but for laws of its own."""
+    """Expansion of a type that has none: the oil without laws of its own."""
 
     f_ref: float
     eta0: float

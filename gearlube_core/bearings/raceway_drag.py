@@ -27,7 +27,7 @@ from gearlube_core.oil.lubricant_state import LubricantState
 
 
 class SteadyRollers(NamedTuple):
-    """What the steady loads of the rollers of both bearings follow from."""
+    """Inputs of the steady loads of the rollers of both bearings."""
 
     terms: ApproachTerms
     film: float
@@ -36,7 +36,7 @@ class SteadyRollers(NamedTuple):
 
 @kernel
 def steady_rollers(motion: ShaftMotion, oil: LubricantState, p: BearingParameters) -> SteadyRollers:
-    """Return what the loads of the rollers follow from at rest at this motion."""
+    """Return the inputs of the roller loads at rest at this motion."""
     film, _ = film_amplitude(motion.speed, oil.eta0, oil.alpha, p)
     terms = approach_terms(motion, math.cos(motion.cage_angle), math.sin(motion.cage_angle), p)
     return SteadyRollers(terms, film, p.kn * FILM_FLOOR_APPROACH**p.n)

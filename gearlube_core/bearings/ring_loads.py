@@ -35,7 +35,7 @@ class RingMotion(NamedTuple):
 
 
 class RingLoads(NamedTuple):
-    """What the elements between the rings carry; all floats."""
+    """Load of the elements between the rings; all floats."""
 
     f_x: float  # force on the inner ring [N]
     f_y: float

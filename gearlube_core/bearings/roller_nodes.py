@@ -45,7 +45,7 @@ _OIL_REACH = 0.02  # K; a kelvin changes the force by 2 %
 
 
 class Races(NamedTuple):
-    """What the rollers of a shaft share: races and oil."""
+    """Data that the rollers of a shaft share: races and oil."""
 
     R_inner: float  # relative radii [m]
     R_outer: float
@@ -66,7 +66,7 @@ class RollerFilm(NamedTuple):
 
 @kernel
 def roller_film(line_load: float, speed: float, races: Races, film_model: Array) -> RollerFilm:
-    """Return what the film model gives for a roller; outside its domain formulas take over.
+    """Return film and force of a roller by the film model; outside its domain by formulas.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def kept_roller_film(
 
 @kernel
 def races_of(oil: LubricantState, p: BearingParameters) -> Races:
-    """Return what the rollers of a shaft share."""
+    """Return the data that the rollers of a shaft share."""
     solid = SolidParameters(0.5 * p.reduced_modulus, p.conductivity, p.density, p.heat_capacity)
     R_inner, R_outer = line_radii(p)
     return Races(R_inner, R_outer, solid, oil, model_inlet(oil, solid, 0.0))
@@ -217,7 +217,7 @@ def solved_raceway_drag(
     if films.kept != 0.0:
         faster = centre_nodes(films.nodes, u, oil.temperature)
     rollers = steady_rollers(motion, oil, p)
-    total = doubt = carried = outside = 0.0
+    total = error = carried = outside = 0.0
     first_film = first_bound = thinnest = bound = 0.0
     for bearing in range(2):
         here = 1.0 - 2.0 * bearing
@@ -232,7 +232,7 @@ def solved_raceway_drag(
             else:
                 found = roller_film(q, u, races, films.model)
             total += found.force
-            doubt += found.force * found.force_bound
+            error += found.force * found.force_bound
             carried += load
             outside += load * found.outside
             loaded += 1
@@ -249,7 +249,7 @@ def solved_raceway_drag(
         torque = -torque
     return SolvedRaceways(
         torque,
-        arm * doubt,
+        arm * error,
         carried,
         outside,
         first_film,

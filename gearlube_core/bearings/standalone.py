@@ -37,7 +37,7 @@ class Rotor(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class RotorHistory:
-    """What `RotorOnBearing.simulate` returns; n samples at equal steps."""
+    """Result of `RotorOnBearing.simulate`; n samples at equal steps."""
 
     time: np.ndarray  # (n,) [s]
     displacement: np.ndarray  # (n, 2): along the load, across it [m]

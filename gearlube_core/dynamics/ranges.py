@@ -50,7 +50,7 @@ class Range(NamedTuple):
     beyond: str  # a sentence: what is computed there, and the cure
 
     def sentence(self, value: float) -> str:
-        """Return what is to be said of a value outside."""
+        """Return the message for a value outside."""
         unit = "" if self.unit == "1" else f" {self.unit}"
         return (
             f"{self.output}: {self.what} should be within {self.low:g} to {self.high:g}{unit}, "

@@ -24,7 +24,7 @@ SAFETY_DOMAIN = 2.0  # twice the size takes half of an error that falls with the
 
 
 class FilmNumbers(NamedTuple):
-    """What is known of a film; not a number: not known."""
+    """Film quantities whose grid error is estimated; NaN where unknown."""
 
     central_film: float  # [m]
     minimum_film: float  # [m]
@@ -53,7 +53,7 @@ class OnGrid(Protocol):
 
     @property
     def numbers(self) -> FilmNumbers:
-        """What is known of the film."""
+        """Film quantities whose grid error is estimated."""
 
     @property
     def formal_order(self) -> float:
@@ -205,12 +205,12 @@ class FilmError:
         grids = ", ".join(" x ".join(map(str, nodes)) for nodes in self.nodes[1:])
         if not math.isfinite(self.film):
             return " The error of the grid is not known: no film on a coarser grid to compare with."
-        text = f" Estimated error of the grid, from {grids} nodes: {_told(self._all())}."
+        text = f" Estimated error of the grid, from {grids} nodes: {_reported(self._all())}."
         if self.largest > LARGE_ERROR:
             text += f" That is above {100.0 * LARGE_ERROR:g} %: take more nodes."
         if not math.isfinite(self.largest_of_domain):
             return text + " The error of the domain is not known."
-        text += f" Of the domain, from one twice as wide: {_told(self.domain)}."
+        text += f" Of the domain, from one twice as wide: {_reported(self.domain)}."
         if self.largest_of_domain > LARGE_ERROR:
             text += f" That is above {100.0 * LARGE_ERROR:g} %: take a wider domain."
         return text
@@ -378,9 +378,9 @@ def _largest(errors: Sequence[float]) -> float:
     return max((one for one in errors if math.isfinite(one)), default=math.nan)
 
 
-def _told(errors: Sequence[float]) -> str:
-    told = zip(_NAMES, errors, strict=True)
-    return ", ".join(f"{name} {100.0 * one:.2g} %" for name, one in told if math.isfinite(one))
+def _reported(errors: Sequence[float]) -> str:
+    listed = zip(_NAMES, errors, strict=True)
+    return ", ".join(f"{name} {100.0 * one:.2g} %" for name, one in listed if math.isfinite(one))
 
 
 def _words(nodes: tuple[int, ...]) -> str:

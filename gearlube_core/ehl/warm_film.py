@@ -1,4 +1,4 @@
-"""What solutions of films with their temperatures have in common."""
+"""Common base of solutions of films with temperatures."""
 
 from __future__ import annotations
 

@@ -146,7 +146,7 @@ def check_oil(model: FilmModel, oil: Lubricant, solid: Solid, what: str) -> None
 
 
 def _misfits(model: FilmModel, oil: Lubricant, solid: Solid) -> list[str]:
-    """Return what keeps the model from saying anything, in words; empty where it does."""
+    """Return the reason why the model does not cover the oil; empty if it does."""
     other = oil.shear_law is not None and oil.shear_law.name != "eyring"
     if other or oil.own_laws():
         known = "(model: roelands or modulus, eyring)"

@@ -148,7 +148,7 @@ def film_contact(
 
 
 class FilmPlace(NamedTuple):
-    """What depends on the place of a contact on the flank alone; all floats."""
+    """Groups that depend on the place of a contact on the flank alone; all floats."""
 
     R_x: float  # [m]
     side_flow: float  # factor of the reference film [-]

@@ -14,7 +14,7 @@ _LAGUERRE = np.stack(np.polynomial.laguerre.laggauss(10), axis=1)  # points and 
 
 
 class FilmInlet(NamedTuple):
-    """What depends on oil and solids alone; all floats."""
+    """Groups that depend on oil and solids alone; all floats."""
 
     contact_modulus: float  # E* [Pa]
     eta0: float  # [Pa s]

@@ -49,7 +49,7 @@ class LineContact(NamedTuple):
 
 
 class LinePlace(NamedTuple):
-    """What depends on the place of a contact on the flank alone; all floats."""
+    """Groups that depend on the place of a contact on the flank alone; all floats."""
 
     R: float  # [m]
     log_R: float  # ln R, R in m

@@ -34,7 +34,7 @@ _FRONT_STEPS = 3  # of one point of the front, each as long as the region of a r
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimiseSettings:
-    """What `run_optimise` computes, and how finely.
+    """Scope and resolution of `run_optimise`.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ class Better:
 
 @dataclass(frozen=True, slots=True)
 class Optimised:
-    """What an optimisation found.
+    """Result of an optimisation.
 
     Parameters
     ----------

@@ -127,8 +127,8 @@ class Problem:
         for name in names:
             _check_parameter(file, name, given)
         for name, one in given.parameters.items():
-            if doubt := field_notes(type(file))[name].doubt(max(abs(one.low), abs(one.high))):
-                logger.warning("[parameters]: %s", doubt)
+            if warning := field_notes(type(file))[name].warning(max(abs(one.low), abs(one.high))):
+                logger.warning("[parameters]: %s", warning)
         ranges = list(allowed.values())
         values = [_start(file, name, one) for name, one in allowed.items()]
         problem = cls(

@@ -90,7 +90,7 @@ class Errors(Section):
 
 
 class Limits(Section):
-    """What the better pair must keep, at each torque; 1 is the value of the gear file as given."""
+    """Limits of the better pair at each torque; 1 is the value of the given gear file."""
 
     pressure: Times | None = Field(
         default=1.0,

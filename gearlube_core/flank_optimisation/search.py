@@ -25,7 +25,7 @@ _SMALLEST = 0.01  # region of a round, in parts of the bounds
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Goal:
-    """What is to be least, and what must stay below one.
+    """Goal that is minimised, and limits that must stay below one.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Goal:
         return square, rate / scale[..., None]
 
     def aim(self, found: Evaluation) -> tuple[float, Array]:
-        """Return what is to be least [-] and its rates (P,): a mean square, or a mean loss."""
+        """Return the goal [-] and its rates (P,): a mean square, or a mean loss."""
         if self.loss:
             part = found.sliding.mean(axis=(1, 2)) / self.before.mean_sliding
             rate = found.sliding_rate.mean(axis=(1, 2)) / self.before.mean_sliding[:, None]

@@ -32,7 +32,7 @@ _LEAST_FRICTION = 1e-12  # so that there is a logarithm without sliding
 
 
 class FlankEllipse(NamedTuple):
-    """What a film model needs of a contact besides `ContactGeometry`; all floats, SI."""
+    """Inputs of a film model besides `ContactGeometry`; all floats, SI."""
 
     R_x: float  # relative radius along the minor axis of the contact ellipse [m]
     R_y: float  # along its major axis [m]
@@ -42,7 +42,7 @@ class FlankEllipse(NamedTuple):
 
 
 class ModelFilm(NamedTuple):
-    """What a film model gives for a contact; all floats, fit to be interpolated."""
+    """Results of a film model for a contact: floats that can be interpolated."""
 
     log_film: float  # ln of the central film in m
     log_friction: float  # ln of the friction coefficient of the film alone
@@ -54,7 +54,7 @@ class BoundedFlank(NamedTuple):
 
     state: FlankState
     outside: float  # 0: film and friction are the film model's; 1: the formulas'; between: both [-]
-    film_bound: float  # of the film thickness, relative; 0 where no model tells it [-]
+    film_bound: float  # of the film thickness, relative; 0 where no model gives it [-]
     friction_bound: float  # of the friction force, relative, likewise [-]
 
 
@@ -109,7 +109,7 @@ def flank_model_film(
     limiting_slope: float,
     film_model: Array,
 ) -> ModelFilm:
-    """Return what the film model gives for a flank contact.
+    """Return film and friction of a flank contact by the film model.
 
     Parameters
     ----------

@@ -82,7 +82,7 @@ def model_film(
     oil: LubricantState,
     film_model: Array,
 ) -> ModelFilm:
-    """Return what a film model gives for a flank; a law without this kernel has no such model.
+    """Return film and friction of a flank by a film model; a law without this kernel has none.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ from gearlube_core.friction.mixed_friction import (
     FormulaBounds,
     asperity_contact,
     boundary_friction,
-    formula_doubt,
+    formula_error,
     friction_with_asperities,
 )
 from gearlube_core.kernels.jit import kernel
@@ -55,10 +55,10 @@ FILM_MODELS = ("formula", "solved")  # where film and friction of the oil are fr
 
 
 @kernel
-def _with_doubt(state: FlankState, outside: float, film_bound: float, doubt: float) -> BoundedFlank:
+def _with_error(state: FlankState, outside: float, film_bound: float, error: float) -> BoundedFlank:
     """Return a state with its bounds, that of friction from a force [N]; no friction, no bound."""
     friction = state.viscous_friction + state.boundary_friction
-    return BoundedFlank(state, outside, film_bound, doubt / friction if friction > 0.0 else 0.0)
+    return BoundedFlank(state, outside, film_bound, error / friction if friction > 0.0 else 0.0)
 
 
 @kernel
@@ -99,7 +99,7 @@ def solved_flank_friction(
     friction, plus what asperities change where the film is thinner by its bound: a thinner film
     raises their load.
     """
-    w, doubt = film.outside, 0.0
+    w, error = film.outside, 0.0
     F, slip = max(load, 0.0), abs(sliding_speed)
     formula = FlankState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if w > 0.0:
@@ -107,9 +107,9 @@ def solved_flank_friction(
             load, entrainment_speed, sliding_speed, geometry, lubricant, surface, solid, form
         )
         bounds = FormulaBounds(FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP)
-        doubt = w * formula_doubt(F, slip, formula, lubricant, surface, solid, form, bounds)
+        error = w * formula_error(F, slip, formula, lubricant, surface, solid, form, bounds)
         if w >= 1.0:
-            return _with_doubt(formula, 1.0, FORMULA_FILM_BOUND, doubt)
+            return _with_error(formula, 1.0, FORMULA_FILM_BOUND, error)
     F_film = max(F, LOAD_FLOOR)
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
     v = 1.0 - w
@@ -137,7 +137,7 @@ def solved_flank_friction(
         F, F / p, h * (1.0 - model_bound) / surface.sigma, surface, solid, form
     )
     more = boundary_friction(W_a, A_a, slip, lubricant, surface) - solved.boundary_friction
-    doubt += v * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
+    error += v * (film_model[net.BOUNDS + 1] * solved.viscous_friction + max(more, 0.0))
     f_v = v * solved.viscous_friction + w * formula.viscous_friction
     f_b = v * solved.boundary_friction + w * formula.boundary_friction
     state = FlankState(
@@ -149,7 +149,7 @@ def solved_flank_friction(
         v * solved.temperature_rise + w * formula.temperature_rise,
         p,
     )
-    return _with_doubt(state, w, v * model_bound + w * FORMULA_FILM_BOUND, doubt)
+    return _with_error(state, w, v * model_bound + w * FORMULA_FILM_BOUND, error)
 
 
 class MixedFlankFriction(NamedTuple):
@@ -202,7 +202,7 @@ class MixedFlankFriction(NamedTuple):
         oil: LubricantState,
         film_model: Array,
     ) -> ModelFilm:
-        """Return what the film model gives for one flank."""
+        """Return film and friction of one flank by the film model."""
         return flank_model_film(
             load,
             entrainment_speed,

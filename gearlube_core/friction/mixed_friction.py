@@ -337,7 +337,7 @@ class FormulaBounds(NamedTuple):
 
 
 @kernel
-def formula_doubt(
+def formula_error(
     load: float,
     slip: float,
     formula: Any,

@@ -24,7 +24,7 @@ from gearlube_core.friction.mixed_friction import (
     FormulaBounds,
     asperity_contact,
     boundary_friction,
-    formula_doubt,
+    formula_error,
     friction_with_asperities,
 )
 from gearlube_core.kernels.jit import kernel
@@ -57,7 +57,7 @@ def line_film(
     solid: SolidParameters,
     inlet: FilmInlet,
 ) -> SolvedFilm:
-    """Return what a film model gives at a point; arguments as in `solved_line_friction`."""
+    """Return film and friction at a point; arguments as in `solved_line_friction`."""
     place = line_place(R, solid.conductivity, solid.density * solid.heat_capacity)
     return solved_line_at(
         film_model,
@@ -106,16 +106,16 @@ def line_with_film(
     w_film = max(w, LINE_LOAD_FLOOR)
     speed = max(abs(entrainment_speed), SPEED_FLOOR)
     slip = abs(sliding_speed)
-    out, doubt = 1.0 if has_own_law(lubricant) else film.outside, 0.0
+    out, error = 1.0 if has_own_law(lubricant) else film.outside, 0.0
     formula = LineState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if out > 0.0:
         formula = line_friction(
             line_load, R, entrainment_speed, sliding_speed, lubricant, surface, solid
         )
         bounds = FormulaBounds(LINE_FORMULA_FILM_BOUND, LINE_FORMULA_FRICTION_TOP)
-        doubt = out * formula_doubt(w, slip, formula, lubricant, surface, solid, CONSISTENT, bounds)
+        error = out * formula_error(w, slip, formula, lubricant, surface, solid, CONSISTENT, bounds)
         if out >= 1.0:
-            return BoundedLine(formula, 1.0, LINE_FORMULA_FILM_BOUND, doubt / w_film)
+            return BoundedLine(formula, 1.0, LINE_FORMULA_FILM_BOUND, error / w_film)
     own = 1.0 - out
     p = line_mean_pressure(w_film, R, solid.contact_modulus)
     h = film.central_film
@@ -141,7 +141,7 @@ def line_with_film(
     thinner = h * (1.0 - model_bound) / surface.sigma
     W_a, A_a = asperity_contact(w, w / p, thinner, surface, solid, CONSISTENT)
     more = boundary_friction(W_a, A_a, slip, lubricant, surface) - solved.boundary_friction
-    doubt += own * (film.friction_bound * solved.viscous_friction + max(more, 0.0))
+    error += own * (film.friction_bound * solved.viscous_friction + max(more, 0.0))
     f_v = own * solved.viscous_friction + out * formula.viscous_friction
     f_b = own * solved.boundary_friction + out * formula.boundary_friction
     mu = own * solved.friction_coefficient + out * formula.friction_coefficient
@@ -159,7 +159,7 @@ def line_with_film(
         state,
         out,
         own * model_bound + out * LINE_FORMULA_FILM_BOUND,
-        doubt / w_film,
+        error / w_film,
     )
 
 

@@ -30,7 +30,7 @@ STRESS_RANGE = (0.1e6, 100e6)  # Pa, of the search
 _STARTS = tuple(1e6 * 2.0 ** (0.5 * k) for k in range(11))  # Pa, the best of them
 _LIMIT_STARTS = (0.95, 0.8)  # of the greatest measured traction
 _FEWEST_LIMITED = 3  # points at the limit, below which it says nothing
-_DOUBT = 0.01  # probability of chance above which a limit is not believed
+_RARE = 0.01  # probability of chance above which a limit is not believed
 _CONFIDENCE = 0.95
 _STEP = 1e-4  # of the logarithm, for the Jacobian
 
@@ -220,7 +220,7 @@ def _believed(points: Sequence[FilmPoint], target: Array, free: Any, limited: An
         return False
     if limited.cost <= 0.0:
         return True
-    return bool(fisher.sf(gain / (limited.cost / spare), 1, spare) < _DOUBT)
+    return bool(fisher.sf(gain / (limited.cost / spare), 1, spare) < _RARE)
 
 
 def _factors(points: Sequence[FilmPoint], target: Array, logs: Array) -> tuple[list[float], float]:

@@ -45,7 +45,7 @@ _EITHER = (("slide_roll_ratio", "sliding_speed_m_s"), ("mean_pressure_gpa", "her
 
 
 class FilmPoint(NamedTuple):
-    """What the traction of one measured point needs beside the two stresses; all floats, SI."""
+    """Inputs of the traction of one measured point besides both stresses; all floats, SI."""
 
     state: LubricantState
     film_thickness: float  # [m]

@@ -49,7 +49,7 @@ class FlankParameter:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HelicalSeriesSettings:
-    """What the mesh table of a helical pair is differentiated by, and where.
+    """Parameters of derivatives of the mesh table of a helical pair, and their places.
 
     Parameters
     ----------

@@ -61,7 +61,7 @@ class HelicalGearFile(InputFile):
     Notes
     -----
     Values that a file leaves out are completed: root diameters from the basic rack, inertia from
-    a steel disc. `provenance` tells for every field whether its source prints it.
+    a steel disc. `provenance` is whether the source of a field prints it.
 
     Examples
     --------
@@ -174,7 +174,7 @@ class HelicalGearFile(InputFile):
 
     def remarks(self) -> list[str]:
         """Return warnings about tips, roots, undercut and guessed profile shifts."""
-        pair, doubts = self.helical_pair(), []
+        pair, found = self.helical_pair(), []
         if self._given_shifts == (None, None):
             m, (x1, x2) = pair.normal_module, pair.profile_shifts
             pinion, gear = pair.pinion_reference_radius, pair.gear_reference_radius
@@ -182,12 +182,12 @@ class HelicalGearFile(InputFile):
             roots = ((pinion - pair.pinion_root_radius) / m + x1,
                      (gear - pair.gear_root_radius) / m + x2)  # fmt: skip
             if max(abs(addendum - 1.0), abs(roots[0] - roots[1])) > _UNUSUAL:
-                doubts.append(
+                found.append(
                     "The guessed profile shifts are doubtful: with them addenda are "
                     f"{addendum:.2f} and dedenda {roots[0]:.2f} (pinion) and {roots[1]:.2f} (gear) "
                     "normal modules. Usual are 1 and 1.25, alike for both gears."
                 )
-        return doubts + pair.remarks()
+        return found + pair.remarks()
 
     def body(self, role: Role) -> GearBody:
         """Return inertia and supports of the "pinion" or the "gear", in SI units."""

@@ -40,7 +40,7 @@ class SharedLoad(NamedTuple):
 
 
 def relief_on_path(tip_radius: float, base_radius: float, depth: float) -> float:
-    """Return what tip relief takes off the path of contact [m].
+    """Return the part of the path of contact that tip relief removes [m].
 
     z = sqrt(r_tip^2 - r_b^2) - sqrt(r_start^2 - r_b^2),  r_start = r_tip - depth
 

@@ -44,7 +44,7 @@ class ContactPath:
         Point [m] and unit normal out of the pinion tooth [-], in the fixed frame.
     gear_s, gear_t, pinion_s, pinion_t : ndarray of shape (N,)
         Profile (root 0, tip 1) and face (toe 0, heel 1) positions [-]. The surfaces reach beyond
-        the teeth; `inside` tells where both teeth are.
+        the teeth; `inside` is true where both teeth are.
     pinion_regularity : ndarray of shape (N,)
         Not positive beyond a fold of the pinion surface (undercut) [-].
     """

@@ -243,7 +243,7 @@ def unloaded_refusal(file: HypoidGearFile, misalignment: Misalignment = ALIGNED)
 
 
 def unloaded_warnings(file: HypoidGearFile) -> list[str]:
-    """Return what the unloaded mesh of a file that meets says against it, one sentence each.
+    """Return warnings about the unloaded mesh of a file that meets, one sentence each.
 
     As the flanks are cut, without corrections.
     """

@@ -194,7 +194,7 @@ def check_pair(file: HypoidGearFile, misalignment: Misalignment = ALIGNED) -> No
 
 
 def pair_warnings(file: HypoidGearFile) -> list[str]:
-    """Return what speaks against a gear file whose flanks meet, one sentence each.
+    """Return warnings about a gear file whose flanks meet, one sentence each.
 
     Misfits that only shift the contact, edge contact without load, and a large transmission error.
     """

@@ -74,7 +74,7 @@ def fit_settings(
     Raises
     ------
     ParameterError
-        A field is none of the member's machine or cutter, or settings cannot be told apart.
+        A field is none of the member's machine or cutter, or settings have nearly the same effect.
 
     Examples
     --------
@@ -210,7 +210,7 @@ def flank_deviation(nominal: Flank, other: Flank, s: Array, t: Array) -> Array:
         i, j = np.argwhere(np.isnan(found))[0].tolist()
         raise ParameterError(
             f"normals of all points must meet the other flank, that at s = {s[i]:.3f}, t = "
-            f"{t[j]:.3f} does not. Keep the grid above an undercut (`tooth_form` tells it)."
+            f"{t[j]:.3f} does not. Keep the grid above an undercut (`tooth_form` has it)."
         )
     return found
 

@@ -48,7 +48,7 @@ class BlankPair(Section):
     gear_teeth: int = Field(ge=3, le=400, description="Number of teeth of the gear")
     offset_mm: PairOffset = Field(
         description="Distance between the axes (pinion offset), without a sign: pinion_hand "
-        "tells its side; 0: bevel gears"
+        "gives its side; 0: bevel gears"
     )
     pinion_hand: Literal["right", "left"] = Field(
         default="right",
@@ -171,7 +171,7 @@ class BlankRelief(Section):
 
 
 class BlankMachine(Section):
-    """What machines and blades can do."""
+    """Abilities of machines and blades."""
 
     gear: Literal["form-cut", "generated"] = Field(
         default="form-cut",

@@ -131,7 +131,7 @@ class ChosenRelief:
     unchecked: str = ""
 
     def warnings(self) -> list[str]:
-        """Return what speaks against the relief, as sentences."""
+        """Return warnings about the relief, as sentences."""
         if self.unchecked:
             return [
                 f"The relief was not chosen for a torque, as the loaded contact could not be "
@@ -140,10 +140,10 @@ class ChosenRelief:
         found = []
         for side, edges in self.edges.items():
             if edges:
-                told = ", ".join(f"{edge} {1e-9 * one:.1f} GPa" for edge, one in edges.items())
+                listed = ", ".join(f"{edge} {1e-9 * one:.1f} GPa" for edge, one in edges.items())
                 found.append(
-                    f"At {self.torque:.0f} N.m edges of the {side} flanks carry: {told}. Give more "
-                    "relief or wider ones (relief.tip_relief_share, relief.end_relief_share), a "
+                    f"At {self.torque:.0f} N.m edges of the {side} flanks carry: {listed}. "
+                    "Take more or wider ones (relief.tip_relief_share, relief.end_relief_share), a "
                     "shorter contact.ellipse_length_mm, or a smaller relief.torque_n_m."
                 )
         return found

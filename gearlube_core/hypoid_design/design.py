@@ -155,7 +155,7 @@ def design_pair(file: BlankFile, progress: Progress = no_progress, jobs: int | N
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """What came nearest to one choice of targets.
+    """Nearest design to one choice of targets.
 
     Parameters
     ----------
@@ -269,7 +269,7 @@ def _between(wanted: float, found: float) -> float:
 
 
 def misses(target: FlankTarget, found: MeasuredContact, designed: DesignedBlank) -> Array:
-    """Return what the contact missed: error [-], path direction [rad], centre [m], length [-]."""
+    """Return the misses of the contact: error [-], path direction [rad], centre [m], length [-]."""
     depth, width = designed.blank.whole_depth, designed.gear_face.total
     centre = math.hypot((found.s - target.s) * depth, (found.t - target.t) * width)
     return np.array(

@@ -1,4 +1,4 @@
-"""What a design asks of one flank, the gap that gives it, and the contact of it."""
+"""Targets of a design for one flank, the gap that gives them, and its contact."""
 
 from __future__ import annotations
 

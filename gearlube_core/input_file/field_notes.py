@@ -40,7 +40,7 @@ _KINDS = {
 class Usual:
     """Mark of a field's type: between which values the field usually lies, in its unit.
 
-    Outside them a number is allowed, but doubtful. 0 and signs are never doubtful, unless `low` is
+    Outside them a number is allowed, but unusual. 0 and signs are never unusual, unless `low` is
     below 0.
     """
 
@@ -105,10 +105,10 @@ class FieldNote(NamedTuple):
     meaning: str
     usual: tuple[float, float] | None = None
 
-    def doubt(self, value: object) -> str:
+    def warning(self, value: object) -> str:
         """Return why a number of the field is hardly meant, as a sentence; "" for nothing."""
         if isinstance(value, tuple | list):
-            return next((said for one in value if (said := self.doubt(one))), "")
+            return next((said for one in value if (said := self.warning(one))), "")
         if self.usual is None or not isinstance(value, float | int) or not value:
             return ""
         low, high = self.usual
@@ -155,7 +155,7 @@ def field_notes(model: type[BaseModel]) -> dict[str, FieldNote]:
     return dict(_walk(schema, schema.get("$defs", {}), ""))
 
 
-def doubts(
+def unusual_numbers(
     data: Mapping[str, Any], notes: Mapping[str, FieldNote], prefix: str = ""
 ) -> dict[str, str]:
     """Return the numbers in the data of a file that are hardly meant: sentences by dotted name."""
@@ -163,9 +163,9 @@ def doubts(
     for key, value in data.items():
         name = f"{prefix}{key}"
         if isinstance(value, Mapping):
-            found |= doubts(value, notes, f"{name}.")
-        elif name in notes and (doubt := notes[name].doubt(value)):
-            found[name] = doubt
+            found |= unusual_numbers(value, notes, f"{name}.")
+        elif name in notes and (warning := notes[name].warning(value)):
+            found[name] = warning
     return found
 
 

@@ -17,7 +17,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from gearlube_core.checks import read_content
 from gearlube_core.errors import ParameterError, unread
-from gearlube_core.input_file.field_notes import as_meant, doubts, field_notes, sentence
+from gearlube_core.input_file.field_notes import as_meant, field_notes, sentence, unusual_numbers
 
 Origin = Literal["given", "inferred", "assumed"]
 
@@ -102,7 +102,7 @@ _MOST = 50_000  # fields and numbers in it
 _LONGEST = 10_000  # characters of a text
 _GREATEST = 10**18  # whole number
 _SHOWN = 80  # characters of a wrong name or text
-_TOLD = 20  # wrong fields
+_LISTED = 20  # wrong fields
 _DEEPEST = 20  # parts of a key
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 # parts of bounded length, each taken once and whole, so that the search stays linear
@@ -153,20 +153,20 @@ class InputFile(Section):
         return found
 
     def warn(self, where: str | Path) -> None:
-        """Log doubts, remarks and guesses of a file that `where` names, as warnings."""
-        for one in (*self.doubts().values(), *self.remarks(), *self.guesses()):
+        """Log unusual numbers, remarks and guesses of a file that `where` names, as warnings."""
+        for one in (*self.unusual_numbers().values(), *self.remarks(), *self.guesses()):
             logger.warning("%s: %s", where, one)
 
-    def doubts(self) -> dict[str, str]:
+    def unusual_numbers(self) -> dict[str, str]:
         """Return the numbers that the file gives and hardly means: sentences by dotted name."""
-        return doubts(self.model_dump(exclude_unset=True), field_notes(type(self)))
+        return unusual_numbers(self.model_dump(exclude_unset=True), field_notes(type(self)))
 
     def remarks(self) -> list[str]:
         """Return warnings about what the file describes as a whole; a kind of file has its own."""
         return []
 
     def guesses(self) -> list[str]:
-        """Return what the file leaves to a guess, in sentences; a kind of file has its own."""
+        """Return the guesses of the file as sentences; each kind of file has its own."""
         return []
 
     @classmethod
@@ -230,11 +230,13 @@ class InputFile(Section):
                     f"those of {other.words}. {other.use}"
                 ) from None
             errors = reason.errors()
-            if len(errors) <= _TOLD:
+            if len(errors) <= _LISTED:
                 errors += cls._behind(data, reason)
-            lines = [sentence(error, notes, cls.unmodelled) for error in errors[:_TOLD]]
+            lines = [sentence(error, notes, cls.unmodelled) for error in errors[:_LISTED]]
             known = {".".join(str(part) for part in error["loc"]) for error in errors}
-            asked = [said for name, said in doubts(data, notes).items() if name not in known]
+            asked = [
+                said for name, said in unusual_numbers(data, notes).items() if name not in known
+            ]
             raise ParameterError(
                 f"{where} has {len(errors)} wrong field(s). "
                 + " ".join(one if len(one) < 1000 else f"{one[:1000]}..." for one in lines + asked)

@@ -21,7 +21,7 @@ _NAMED = 5  # points that are named one by one
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """What a table measures, and which study predicts it."""
+    """Quantity that a table measures, and the study that predicts it."""
 
     words: str  # with their article
     values: tuple[str, ...]  # columns of what was measured, of which a table has one

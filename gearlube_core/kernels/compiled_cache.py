@@ -167,7 +167,7 @@ def _say_not_kept(why: str) -> None:
 
 
 def _cell_keys(function: FunctionType) -> list[Any]:
-    """Return what tells the values in the closure of a function from others, in any process.
+    """Return a key of the values in the closure of a function, the same in any process.
 
     numba names a kernel among them by a number drawn in each process, so that no code was found.
     """

@@ -1,4 +1,4 @@
-"""What an oil file takes for the class of a base oil where the data sheet says nothing.
+"""Values of a base oil class that an oil file takes where the data sheet has none.
 
 Limiting coefficients are those of [hoglund_1999] that [arana_2019] quotes.
 """

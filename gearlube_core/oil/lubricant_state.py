@@ -19,7 +19,7 @@ CONTACT_PRESSURE = 1e9  # Pa, where a local Eyring stress is taken as the oil's 
 
 
 class LubricantParameters(NamedTuple):
-    """What the kernels need to know of a lubricant; all floats, SI."""
+    """Properties of a lubricant for the kernels; all floats, SI."""
 
     walther_a: float  # [-]
     walther_b: float  # [-]

@@ -65,7 +65,7 @@ class SpecialPoint:
         lost.
     smooth
         Whether what defines the kind passes through zero. False where it jumps, as multipliers
-        may at grazing: a non-smooth bifurcation of which the kind tells only the outcome.
+        may at grazing: a non-smooth bifurcation of which the kind gives only the outcome.
     """
 
     kind: Kind

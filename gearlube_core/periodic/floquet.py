@@ -81,7 +81,7 @@ def torus_test(multipliers: Multipliers) -> float:
     """Return the product of (mu_i mu_j - 1) over pairs [-].
 
     It changes sign where a complex pair passes the unit circle, and also where two real multipliers
-    become reciprocal, which is no bifurcation: `torus_pair` tells them apart.
+    become reciprocal, which is no bifurcation: `torus_pair` separates them.
     """
     i, j = np.triu_indices(multipliers.size, 1)
     return float(np.prod(multipliers[i] * multipliers[j] - 1.0).real)

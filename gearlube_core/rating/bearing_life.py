@@ -38,7 +38,7 @@ _FORCE, _METRES = Positive("N", "1 kN is 1000 N."), "Give metres, not millimetre
 
 
 class _Law(NamedTuple):
-    """What balls and rollers differ in."""
+    """Exponents that differ between balls and rollers."""
 
     life: float  # exponent p of C/P
     exponents: tuple[float, float]  # of the mean load of elements on a standing and a turning race
@@ -72,7 +72,7 @@ _ROLLER = _Law(
 
 @dataclass(frozen=True, kw_only=True)
 class RatedBearing(Checked):
-    """What a catalogue has of a rolling bearing.
+    """Catalogue data of a rolling bearing.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ class RatedBearing(Checked):
 
     @property
     def law(self) -> _Law:
-        """What its balls or rollers differ in."""
+        """Exponents of its balls or rollers."""
         return _BALL if self.kind.endswith("ball") else _ROLLER
 
     @property
@@ -281,7 +281,7 @@ def bearing_life(
 
 
 def _slice_sums(bearing: RatedBearing, loads: Array, inner_turns: bool, end_loads: bool) -> Array:
-    """Return what each slice of the elements adds to life to the power -e."""
+    """Return the contribution of each slice of the elements to life to the power -e."""
     law, ratings = bearing.law, np.array(bearing.race_ratings())
     if loads.size % (bearing.rows * bearing.elements) or not loads.size:
         raise ParameterError(

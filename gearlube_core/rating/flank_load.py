@@ -86,7 +86,7 @@ class PathPoints(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class FlankLoad(Checked):
-    """What scuffing and micropitting of a cylindrical pair take.
+    """Load data for scuffing and micropitting of a cylindrical pair.
 
     Geometry; gears with roughness and moduli; oil. The line load is F_t/b without load factors, the
     load factor K_A K_gamma K_v K_H beta K_H alpha.

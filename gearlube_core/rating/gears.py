@@ -1,4 +1,4 @@
-"""What a rating of gears takes, and what it returns; all standards share it."""
+"""Inputs and results of a rating of gears, shared by all standards."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What pitting and bending of cylindrical and bevel gears share; N, mm, MPa, um."""
+"""Common factors of pitting and bending of cylindrical and bevel gears; N, mm, MPa, um."""
 
 from __future__ import annotations
 

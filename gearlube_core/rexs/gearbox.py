@@ -43,7 +43,7 @@ class RexsTrain(NamedTuple):
     notes: tuple[ExchangeNote, ...]
 
     def comments(self) -> str:
-        """Return what was assumed, inferred and left out, as comments of a TOML file."""
+        """Return assumed, inferred and left-out numbers as comments of a TOML file."""
         meaning = {
             "lacking": "Assumed, because the REXS file does not say it; correct what matters:",
             "inferred": "Follows from other numbers:",

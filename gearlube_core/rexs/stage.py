@@ -19,7 +19,7 @@ Kind = Literal["taken", "given", "inferred", "lacking", "left out"]
 
 
 class ExchangeNote(NamedTuple):
-    """What became of one number on its way from one file to the other.
+    """Outcome of one number in the conversion from one file to the other.
 
     `kind` is "taken" (the same quantity in both), "given" (by the user), "inferred" (follows
     from others), "lacking" (the file that is written has it, the one that is read does not) or

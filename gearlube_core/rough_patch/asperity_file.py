@@ -39,7 +39,7 @@ def greenwood_tripp_fit(
     """Return the parameters with which Greenwood and Tripp's law fits a table of computed patches.
 
     The two products of the law are chosen so that the mean logarithms of load and area between two
-    film ratios agree. The misfits tell by how much the shape of the law differs.
+    film ratios agree. The misfits show how much the shape of the law differs.
 
     Parameters
     ----------

@@ -166,7 +166,7 @@ def flow_factors(patch: HeightMap, film: float) -> FlowFactors:
     if height.size > _MOST_NODES:
         raise ParameterError(
             f"{patch.name} must have at most {_MOST_NODES} points, got {height.size}. Take a "
-            "smaller patch; several seeds tell more than one large patch."
+            "smaller patch; several seeds show more than one large patch."
         )
     sigma = float(height.std())
     dx, dy = patch.spacing

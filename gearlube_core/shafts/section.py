@@ -1,4 +1,4 @@
-"""What a shaft is made of: cylindrical sections, discs on it, its material."""
+"""Parts of a shaft: cylindrical sections, discs on it, its material."""
 
 from __future__ import annotations
 

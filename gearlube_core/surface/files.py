@@ -22,7 +22,7 @@ SUFFIXES = (*TABLES, ".npz", ".nc", ".sdf", ".x3p", ".sur", ".al3d")
 
 
 def read_surface(path: str | Path) -> Surface:
-    """Return a surface profile or map from a file; the ending of its name tells its kind.
+    """Return a surface profile or map from a file; the ending of its name gives its kind.
 
     .csv, .txt, .tsv: a profile, columns x_mm and height_um; .npz, .nc: a map, x and y in mm and
     height in um; .sdf: [iso_25178_71], .x3p: [iso_25178_72], .sur: Digital Surf, .al3d: Alicona,

@@ -1,4 +1,4 @@
-"""What a generated surface is asked to be, and the checks that need no computation."""
+"""Requested statistics of a generated surface, and checks that need no computation."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def torques_about(torque: float) -> tuple[float, float]:
 
 
 class RateParameter(Protocol):
-    """What a mesh table is differentiated by."""
+    """Parameter of derivatives of a mesh table."""
 
     @property
     def name(self) -> str:
@@ -50,7 +50,7 @@ class RateParameter(Protocol):
 
 
 class PairNames(Protocol):
-    """What a mesh table has about its pair."""
+    """Data of the pair in a mesh table."""
 
     name: str
     source: str

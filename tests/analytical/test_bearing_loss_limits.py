@@ -212,16 +212,16 @@ def test_a_rib_without_a_film_makes_the_torque_as_uncertain_as_its_data():
     slow = loss_at(10, temperature_degc=90.0)
     share = slow.parts["rib"] / slow.torque
     rib = BEARING.rib
-    doubt = [math.log(slow.factor) ** 2 - math.log(2.0) ** 2]
+    error = [math.log(slow.factor) ** 2 - math.log(2.0) ** 2]
     for changed in (
         replace(rib, boundary_friction=1.4 * rib.boundary_friction),
         replace(rib, roughness=2.0 * rib.roughness),
     ):
         more = loss_at(10, temperature_degc=90.0, changes={"rib": changed}).torque / slow.torque
-        doubt.append(-(math.log(more) ** 2))
+        error.append(-(math.log(more) ** 2))
     assert share > 0.3
     # all rollers carry the same axial load, so the one that is asked stands for all
-    assert sum(doubt) == pytest.approx(0.0, abs=1e-9)
+    assert sum(error) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_calibrated_bearing_has_a_narrower_error_bar_and_the_scaled_rolling_torque():

@@ -23,7 +23,7 @@ from gearlube_core.ehl.line.traction import fill_mean_stress
 from gearlube_core.errors import ParameterError
 from gearlube_core.friction.flank_data import CONSISTENT
 from gearlube_core.friction.line_points import line_friction
-from gearlube_core.friction.mixed_friction import FormulaBounds, formula_doubt
+from gearlube_core.friction.mixed_friction import FormulaBounds, formula_error
 from gearlube_core.friction.traction_fit import steel_on_steel
 from gearlube_core.oil.eyring_1936 import Eyring
 from gearlube_core.oil.film_oil import stress_ratio, thermal_viscosity, viscosity
@@ -199,11 +199,11 @@ def test_friction_formulas_take_the_stress_of_their_own_pressure():
         constant = local._replace(tau0=tau0, eyring_slope=0.0)
         assert found == line_friction(*line, constant, surface, solid)
         bounds = FormulaBounds(0.1, 1.1)
-        doubts = [
-            formula_doubt(load, 1.5, found, oil, surface, solid, CONSISTENT, bounds)
+        errors = [
+            formula_error(load, 1.5, found, oil, surface, solid, CONSISTENT, bounds)
             for oil in (local, constant)
         ]
-        assert doubts[0] == doubts[1]
+        assert errors[0] == errors[1]
         rib = RIB, 1e-3 * load, 300.0
         p = hertz_ellipse(RIB.R_meridian, RIB.R_sliding, 0.5 * RIB.reduced_modulus, rib[1])[2]
         one = local._replace(tau0=eyring_stress_under(local, p), eyring_slope=0.0)

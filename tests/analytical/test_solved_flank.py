@@ -23,7 +23,7 @@ from gearlube_core.friction.flank_laws import (
     Consistent,
     solved_flank_friction,
 )
-from gearlube_core.friction.mixed_friction import FormulaBounds, formula_doubt
+from gearlube_core.friction.mixed_friction import FormulaBounds, formula_error
 from gearlube_core.oil.lubricant import Lubricant
 from gearlube_core.oil.lubricant_state import lubricant_state
 from tests.helpers.axle_cases import OIL as AXLE_OIL
@@ -203,9 +203,9 @@ def test_where_the_formulas_stand_in_the_bound_reaches_an_isothermal_film_and_no
     rate = SLIP / rough.state.film_thickness
     stress = OIL.tau0 * np.arcsinh(OIL.eta0 * np.exp(OIL.alpha * p) * rate / OIL.tau0)
     most = FORMULA_FRICTION_TOP * stress * light / p
-    doubt = rough.friction_bound * rough.state.boundary_friction
+    error = rough.friction_bound * rough.state.boundary_friction
     # and what asperities add under a film that is thinner by its bound: less than all of the load
-    assert most < doubt < most + OIL.gamma * light
+    assert most < error < most + OIL.gamma * light
     # no friction at all: there is nothing that a relative bound could be of
     assert bounded(smooth).friction_bound == 0.0
 
@@ -222,5 +222,5 @@ def test_flank_and_bound_are_the_same_compiled_and_in_python(load):
     ):
         assert one == pytest.approx(other, rel=1e-13)  # sums in another order
     bounds = FormulaBounds(FORMULA_FILM_BOUND, FORMULA_FRICTION_TOP)
-    doubt = (load, SLIP, compiled.state, OIL, ROUGH, SOLID, 0, bounds)
-    assert formula_doubt(*doubt) == pytest.approx(formula_doubt.py_func(*doubt), rel=1e-13)
+    error = (load, SLIP, compiled.state, OIL, ROUGH, SOLID, 0, bounds)
+    assert formula_error(*error) == pytest.approx(formula_error.py_func(*error), rel=1e-13)

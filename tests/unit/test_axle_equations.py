@@ -105,7 +105,7 @@ def test_the_mesh_pushes_both_members_apart_and_pays_in_energies(
 def test_bearings_push_their_shaft_and_brake_it(monkeypatch, on_cage, gear):
     module = opposed_bearings
     interpret(monkeypatch, module)
-    forces, lost, drag, doubt = np.array([900.0, -400.0, 250.0]), 0.3, 0.9, 0.05
+    forces, lost, drag, error = np.array([900.0, -400.0, 250.0]), 0.3, 0.9, 0.05
     axes = (0, 1, 2) if gear else (2, 1, 0)  # the pinion's shaft lies along x, and z comes first
     u, v, w, cage = (U_G, V_G, W_G, CAGE_G) if gear else (U_P, V_P, W_P, CAGE_P)
     s, seen = state(), []
@@ -116,7 +116,7 @@ def test_bearings_push_their_shaft_and_brake_it(monkeypatch, on_cage, gear):
 
     monkeypatch.setattr(module, "expanded_forces", expanded_forces)
     memory = np.zeros(module._MEMORY)
-    memory[module._DRAG], memory[module._DOUBT] = drag, doubt
+    memory[module._DRAG], memory[module._BOUND] = drag, error
     at = (u, cage, BEARING_DAMPING, BEARING_TORQUE, N_ODE - 1, N_ODE, *axes, 0)
     pair = SimpleNamespace(bearings=SimpleNamespace(cage_ratio=0.43), on_cage=on_cage)
     ds = np.zeros(N_ODE)
@@ -128,7 +128,7 @@ def test_bearings_push_their_shaft_and_brake_it(monkeypatch, on_cage, gear):
     assert ds[w] == pytest.approx(of_cage - drag, rel=1e-12)
     assert ds[cage] == pytest.approx(0.43 * s[w], rel=1e-14)
     powers = ds[BEARING_DAMPING], ds[BEARING_TORQUE], ds[N_ODE - 1]
-    assert powers == pytest.approx((lost, drag * s[w], doubt), rel=1e-14)
+    assert powers == pytest.approx((lost, drag * s[w], error), rel=1e-14)
     shown = [*s[u : u + 3][list(axes)], *s[v : v + 3][list(axes)], s[cage], s[w]]
     np.testing.assert_array_equal(seen[0], shown)
 

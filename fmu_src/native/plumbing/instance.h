@@ -53,7 +53,7 @@ typedef struct {
 } gl_floats;
 
 struct gl_instance {
-    uint64_t mark; /* tells an instance from other memory */
+    uint64_t mark; /* marks the memory of an instance */
     gl_floats host_floats; /* while a call of the host lasts */
     gl_model *model;
     gl_snapshot now;
@@ -120,7 +120,7 @@ gl_status gl_set(gl_instance *instance, unsigned reference, double value);
 /* Model exchange. What the integrator tries may be refused with GL_DISCARD. */
 gl_status gl_enter_events(gl_instance *instance);
 gl_status gl_enter_continuous_time(gl_instance *instance);
-/* Does what an event changes; tells whether the continuous states have changed. */
+/* Does what an event changes; returns whether the continuous states have changed. */
 gl_status gl_update_discrete(gl_instance *instance, int *states_changed);
 /* Tells whether there is something to be done in event mode. */
 gl_status gl_complete_step(gl_instance *instance, int *event);

@@ -30,7 +30,7 @@ from gearlube.studies.bearing.summary import bearing_summary, bearing_warnings, 
 from gearlube_core.film_model.model import ROLLER
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
-_NAMED, _LEAST_SHARE = 3, 0.005  # parts that are told, if they are not smaller
+_NAMED, _LEAST_SHARE = 3, 0.005  # parts that are listed, if they are not smaller
 _TORQUE = Axis("friction torque", "N·m")
 _AXES = {
     "speed": Axis("shaft speed", "rpm"),
@@ -142,7 +142,7 @@ def _films(dataset: xr.Dataset) -> list[Finding]:
             "Rolling force and films of the raceways by solved_films come from a model of solved "
             "films.",
             f"Model: {model}. Up to {100.0 * float(out.max()):.2g} % of the loaded contacts lie "
-            "outside its domain, where formulas stand in.",
+            "outside its domain, where formulas are used.",
         )
     ]
 

@@ -34,7 +34,7 @@ from gearlube_core.units import (
     rpm_to_rads,
 )
 
-DEFAULT_LAWS = (DEFAULT_LAW, "zhou_hoeprich")  # the second tells rolling and rib apart
+DEFAULT_LAWS = (DEFAULT_LAW, "zhou_hoeprich")  # the second separates rolling and rib
 MOST_POINTS = 50_000  # conditions times laws
 _CONDITIONS = ("law", "speed", "axial_load", "radial_load", "temperature")
 
@@ -224,7 +224,7 @@ def _bearing_dataset(
         variables[name] = (_CONDITIONS, values, {"units": "N.m", "long_name": words})
     parts = [part for part in PARTS if any(part in one.parts for one in losses)]
     table = np.array([[one.parts.get(part, np.nan) for one in losses] for part in parts])
-    words = "torque of one part; nan where the law does not tell it apart"
+    words = "torque of one part; nan where the law does not separate it"
     variables["part_torque"] = labelled(
         ("part", *_CONDITIONS), table.reshape(len(parts), *shape), "N.m", words
     )

@@ -1,4 +1,4 @@
-"""What the command prints about bearing friction: error bar first, main numbers, warnings."""
+"""Text that the command prints about bearing friction: error bar first, main numbers, warnings."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class BearingRow(NamedTuple):
 
 
 def error_sentences(dataset: xr.Dataset) -> list[str]:
-    """Return what the error bar of each law is and why."""
+    """Return the error bar of each law and its reason."""
     groups: dict[float, list[str]] = {}
     for law in dataset["law"].values:
         factor = round(20.0 * float(dataset["factor"].sel(law=law).max())) / 20.0
@@ -88,7 +88,7 @@ def bearing_warnings(dataset: xr.Dataset) -> list[str]:
             rest = "the torque is still computed."
             if law == "solved_films":
                 what = "the domain of the film model"
-                rest = "formulas stand in for it there."
+                rest = "formulas are used there."
             found.append(
                 f"{law}: raceway contacts leave {what} from {worst:.4g} rpm on, up to "
                 f"{100 * out:.2g} % of them; fully usable {usable}: beyond, {rest}"

@@ -1,4 +1,4 @@
-"""What a calibration leaves: the axle file, values for its FMU, draws, figures and the report."""
+"""Results of a calibration: the axle file, values for its FMU, draws, figures and the report."""
 
 from __future__ import annotations
 

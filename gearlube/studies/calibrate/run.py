@@ -206,7 +206,7 @@ def axle_at(settings: CalibrationSettings, inputs: Array) -> tuple[HypoidAxlePar
 
 
 def loss_torques(axle: HypoidAxleParameters, measured: Measurements) -> Array:
-    """Return what an axle loses at measured points, by source (sources, m) [N.m] at the pinion."""
+    """Return the losses of an axle at measured points (sources, m) [N.m] at the pinion."""
     at = [measured.conditions[name] for name in ("temperature_degc", "speed_rpm", "torque_n_m")]
     found = np.empty((len(LOSS_SOURCES), measured.value.size))
     steady, group = np.unique(np.stack(at[:2]), axis=1, return_inverse=True)

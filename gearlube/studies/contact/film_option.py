@@ -346,7 +346,7 @@ def _as_analysed(phase: Array, known: Array) -> Array:
 
 
 def _places(part: xr.Dataset) -> dict[str, Array]:
-    """Return what a loaded tooth pair has at rising phases: centre, radii and axes per metre."""
+    """Return data of a loaded tooth pair at rising phases: centre, radii and axes per metre."""
     pair = FlankPair.from_file(HypoidGearFile.model_validate_json(part.attrs["gear_file"]), "drive")
     life = part["phase"].values[:, None] + part["pair"].values
     row, column = np.nonzero(np.isfinite(part["gear_s"].values))

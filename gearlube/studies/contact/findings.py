@@ -1,4 +1,4 @@
-"""What a tooth contact analysis says: main numbers, warnings about its gear file, and sentences."""
+"""Findings of a tooth contact analysis: main numbers, warnings about its gear file, sentences."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a design was asked and found, what speaks against it, in numbers and sentences."""
+"""Findings of a design: targets, results and warnings, as numbers and sentences."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def unmet_targets(design: Design) -> list[str]:
 
 
 def design_warnings(design: Design, forms: dict[str, ToothForm]) -> dict[str, list[str]]:
-    """Return what speaks against a design: sentences on its blank, contact, pair and teeth."""
+    """Return warnings about a design: sentences on its blank, contact, pair and teeth."""
     teeth = [line for form in forms.values() for line in form.report()]
     said = [one for one in design.measured.values() if isinstance(one, str)]
     pair = [
@@ -211,7 +211,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
     name = f"{side.capitalize()} flanks"
     if math.isnan(float(part["found_error"])):
         return Finding(WARNING, f"{name}: no parabolic transmission error was found.")
-    told = [
+    listed = [
         f"{words} {number_text(float(part[f'found_{key}']) / scale)} {unit} "
         f"({number_text(float(part[f'asked_{key}']) / scale)} wanted)"
         for key, words, scale, unit in (
@@ -229,7 +229,7 @@ def _contact(part: xr.Dataset, side: str) -> Finding:
     )
     return Finding(
         WARNING if missed else GOOD,
-        f"{name}, {verdict}: {', '.join(told)}, mean contact {centre} off.",
+        f"{name}, {verdict}: {', '.join(listed)}, mean contact {centre} off.",
         f"Flanks as cut, without load. With relief there is {relief}.",
     )
 
@@ -240,7 +240,7 @@ def _relief(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     if bool(np.isnan(pressure).any()):
         return []
     torque = float(dataset.attrs["relief_torque"])
-    told = " and ".join(f"{float(pressure.sel(side=side)):.2f} GPa ({side})" for side in SIDES)
+    listed = " and ".join(f"{float(pressure.sel(side=side)):.2f} GPa ({side})" for side in SIDES)
     amounts = "; ".join(
         f"{side}: "
         + ", ".join(
@@ -252,7 +252,7 @@ def _relief(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     return [
         Finding(
             GOOD if sound else NOTE,
-            f"At {torque:g} N·m of the pinion the highest pressure is {told}"
+            f"At {torque:g} N·m of the pinion the highest pressure is {listed}"
             f"{', and no edge carries' if sound else ''}.",
             f"Relief, {amounts}. Give relief.torque_n_m to choose it for another torque.",
         )
@@ -274,7 +274,7 @@ def _with_signs(text: str) -> str:
 
 def _teeth(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     top, slot = (dataset[name].min("face") / MILLIMETRE for name in ("topland", "slot"))
-    told = ", ".join(
+    listed = ", ".join(
         f"{member} {quantity_text(float(top.sel(member=member)), 'mm')}"
         for member in dataset["member"].values
     )
@@ -287,7 +287,7 @@ def _teeth(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
     return [
         Finding(
             GOOD if sound else NOTE,
-            f"The smallest toplands are {told}{words}.",
+            f"The smallest toplands are {listed}{words}.",
             f"Blade points may be as wide as the slot at its narrowest: {points}.",
         )
     ]
@@ -295,11 +295,11 @@ def _teeth(dataset: xr.Dataset, *, sound: bool) -> list[Finding]:
 
 def _path(dataset: xr.Dataset) -> Finding:
     ratios = {side: float(dataset["path_contact_ratio"].sel(side=side)) for side in SIDES}
-    told = ", ".join(f"{ratio:.2f} on the {side} flanks" for side, ratio in ratios.items())
+    listed = ", ".join(f"{ratio:.2f} on the {side} flanks" for side, ratio in ratios.items())
     low = min(ratios.values()) < 1.0
     return Finding(
         WARNING if low else NOTE,
-        f"The contact ratio is {told}.",
+        f"The contact ratio is {listed}.",
         "Below 1 the next pair starts contact at an edge: lengthen the path, or make deeper teeth."
         if low
         else "Above 1 the next pair is in contact before the last one leaves.",
@@ -311,14 +311,14 @@ def _chosen(dataset: xr.Dataset) -> list[Finding]:
     chosen = [one for one in notes if one[3] == ASSUMED]
     if not chosen:
         return [Finding(GOOD, "All fields of the blank were given.")]
-    told = "; ".join(
+    listed = "; ".join(
         f"{field} {value} {unit_words(unit)}".strip() for field, value, unit, *_ in chosen
     )
     return [
         Finding(
             NOTE,
             f"{len(chosen)} of {len(notes)} fields were chosen, not given.",
-            f"Give the values that you know better: {told}.",
+            f"Give the values that you know better: {listed}.",
         )
     ]
 

@@ -108,7 +108,7 @@ def _lost(dataset: xr.Dataset) -> Finding:
 
 
 def _whose(dataset: xr.Dataset) -> str:
-    """Return what the ends of the energy and of the last temperature hold."""
+    """Return the bounds of energy and last temperature as text."""
     if _DRAWN in dataset:
         return "With the uncertain data of axle and heat (95 % of the draws)"
     return "With heat capacity and conductances at the ends of their assumed intervals"
@@ -155,9 +155,9 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     friction = flank_friction(dataset["loss"]) * dataset["duration"]
     outside = float((friction * dataset["share_outside"]).sum() / friction.sum())
     effect = f"That is {quantity_text(lost, 'kJ', 2)} of energy lost"
-    doubt = float(dataset["efficiency_bound"])
-    if np.isfinite(doubt):
-        effect += f" and {quantity_text(100.0 * doubt, '%', 2)} of efficiency over the cycle"
+    error = float(dataset["efficiency_bound"])
+    if np.isfinite(error):
+        effect += f" and {quantity_text(100.0 * error, '%', 2)} of efficiency over the cycle"
     words = f"with {100.0 * outside:.1f} % of the flanks' friction loss"
     words += points_beyond(dataset["share_outside"], "steps")
     bound = covered_share(dataset["friction_bound"] * dataset["duration"], friction)

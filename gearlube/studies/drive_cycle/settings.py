@@ -1,4 +1,4 @@
-"""What a drive cycle is computed for: the car, its trace, oil temperature, brakes and heat."""
+"""Settings of a drive cycle: the car, its trace, oil temperature, brakes and heat."""
 
 from __future__ import annotations
 

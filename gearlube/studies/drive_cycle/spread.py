@@ -29,7 +29,7 @@ from gearlube_core.progress import Progress, no_progress
 
 _BOUNDS = 2.5, 97.5  # percent
 _KJ = 1e-3
-_LEAST_DRAWS = 3  # for each input, to tell causes
+_LEAST_DRAWS = 3  # for each input, to separate causes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -51,7 +51,7 @@ def drivetrain(
     ramp_s: Annotated[
         float | None,
         typer.Option(
-            help="Duration of the run-up [s]. Default: so long that its orders are told apart.",
+            help="Duration of the run-up [s]. Default: long enough to separate its orders.",
             metavar="S",
         ),
     ] = None,

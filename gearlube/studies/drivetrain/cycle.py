@@ -45,7 +45,7 @@ _GOOD, _BALANCED = 0.02, 1e-6  # shares of the energy lost, and of that put in
 
 
 class CyclePlan(NamedTuple):
-    """What a cycle asks of a train, and the map that covers it."""
+    """Demands of a cycle on a train, and the map that covers them."""
 
     operation: Operation
     cycle: DriveCycle
@@ -285,7 +285,7 @@ CYCLE_FIGURE = (
 
 
 def of_cycle(dataset: xr.Dataset | None) -> list[Finding]:
-    """Return what a cycle says, the most important first."""
+    """Return the findings of a cycle, the most important first."""
     if dataset is None:
         return []
     lost, error = float(dataset["energy_lost"].sum()), float(dataset["map_error"])

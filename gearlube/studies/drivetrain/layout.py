@@ -37,7 +37,7 @@ class Gear(NamedTuple):
 
     @property
     def key(self) -> tuple[str, int, float]:
-        """What it has in all meshes."""
+        """Its data in all meshes."""
         return self.body, self.teeth, self.z
 
 

@@ -49,7 +49,7 @@ def map_losses(
     folder: Path | None = None,
     progress: Progress = no_progress,
 ) -> xr.Dataset:
-    """Return what each element of a train loses over speed and torque of its driven shaft.
+    """Return the losses of each element of a train over speed and torque of its driven shaft.
 
     Each point runs in time from its equilibrium; the loads take what losses leave.
 
@@ -292,7 +292,7 @@ def source_name(source: str) -> str:
 
 
 def of_map(dataset: xr.Dataset | None) -> list[Finding]:
-    """Return what a map says, the most important first."""
+    """Return the findings of a map, the most important first."""
     if dataset is None:
         return []
     failed = dataset["failure"].values[dataset["failure"].values != ""]

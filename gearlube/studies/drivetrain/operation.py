@@ -71,7 +71,7 @@ class Operation:
         drive = max(powers, key=lambda name: powers[name], default="")
         loads = tuple(name for name, power in powers.items() if power < -_NO_POWER)
         if not drive or powers[drive] < _NO_POWER or not loads:
-            told = [
+            listed = [
                 f"{name} {powers[name] + 0.0:.4g} W"  # no -0
                 + ("" if case.torques[name] else " with torque 0")
                 + ("" if found[f"{body}.speed"] else " at speed 0")
@@ -79,7 +79,7 @@ class Operation:
             ]
             raise ParameterError(
                 "A run-up, map or cycle needs a port that puts power into the train at the start "
-                f"and one that takes it, got {', '.join(told) or 'no port'}. Correct "
+                f"and one that takes it, got {', '.join(listed) or 'no port'}. Correct "
                 "start.torque_n_m and start.speed_rpm."
             )
         turning = {one.name: found[f"{one.body}.speed"] for one in ports}

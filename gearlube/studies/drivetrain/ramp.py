@@ -61,7 +61,7 @@ def run_ramp(
     start, end : float
         Speeds of the shaft that is driven [rad/s]; the end may be lower.
     duration : float, optional
-        Of the ramp [s]; by default so long that the orders are told apart, 5 to 60 s.
+        Of the ramp [s]; by default long enough to separate the orders, 5 to 60 s.
     folder : Path, optional
         Folder for FILE, which `gearlube sound` takes.
     progress : callable, optional
@@ -115,7 +115,7 @@ def run_ramp(
 
 
 class Plan(NamedTuple):
-    """What a run-up records, and for how long."""
+    """Records of a run-up and their duration."""
 
     operation: Operation
     parts: Parts

@@ -301,7 +301,7 @@ def _drift(dataset: xr.Dataset) -> list[Finding]:
 
 
 def _exchanged(notes: Sequence[ExchangeNote]) -> list[Table]:
-    """Return what became of the numbers of a REXS file."""
+    """Return the outcome of the numbers of a REXS file."""
     words = {"lacking": "assumed", "inferred": "follows", "left out": "left out"}
     rows = [[words[kind], what, why] for kind, what, why in notes if kind in words]
     if not rows:

@@ -179,7 +179,7 @@ def _names(train: Train) -> list[str]:
 
 
 def _imbalance(train: Train, before: float) -> float:
-    """Return what is neither stored nor lost of the energy that has passed through, as a share.
+    """Return the missing share of the energy that has passed through.
 
     `before` is the energy of the train at the start [J].
     """

@@ -1,4 +1,4 @@
-"""What transmission errors and motors make a drivetrain do: forces over frequency."""
+"""Response of a drivetrain to transmission errors and motors: forces over frequency."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ def response_figure(dataset: xr.Dataset) -> Any:
 
 
 def deflection(dataset: xr.Dataset) -> tuple[list[list[Any]], list[list[Any]]]:
-    """Return what meshes and bearings carry at the start, a row for each.
+    """Return the loads of meshes and bearings at the start, a row for each.
 
     Of a mesh: load [N], misalignment [urad], loads of the end stations over the mean; of a bearing:
     radial and axial force [N].

@@ -34,11 +34,11 @@ _CURE = (
 )
 _LEAST_LOAD = 1.0  # N
 _TRIES = 200  # draws for each contact, most of which have no load where a run hardly loads
-_DOUBT = 0.05  # chance of as many violations, below which the bound does not hold
+_LIMIT = 0.05  # chance of as many violations, below which the bound does not hold
 
 
 class OperatingPoints(NamedTuple):
-    """What the pinion did, N points."""
+    """Operating points of the pinion, N of them."""
 
     speed: Array  # [rad/s], above zero
     torque: Array  # [N.m], not zero
@@ -155,7 +155,7 @@ class AuditRow(NamedTuple):
 
 
 class Audit(NamedTuple):
-    """What an audit found."""
+    """Result of an audit."""
 
     rows: tuple[AuditRow, ...]
     outside: int  # contacts drawn that lie outside the domain, not solved
@@ -190,7 +190,7 @@ class Audit(NamedTuple):
     @property
     def holds(self) -> bool:
         """Tell whether the violations speak against no bound."""
-        return min(self.chances) >= _DOUBT
+        return min(self.chances) >= _LIMIT
 
 
 def audit(
@@ -215,7 +215,7 @@ def audit(
     Notes
     -----
     Each contact is solved on both grids of its kind, with oil beyond them, and led to the limit of
-    fine grids. Coarser solutions alone would err by more than the model.
+    fine grids. The error of coarser solutions alone would exceed the model's.
     """
     numbers = model.copied_numbers()
     films = [kind_of(one).predict(numbers, one) for one in contacts]

@@ -1,4 +1,4 @@
-"""What is fitted to solved films: the small net of the film kernel, and Gaussian processes."""
+"""Fits to solved films: the small net of the film kernel, and Gaussian processes."""
 
 from __future__ import annotations
 
@@ -185,7 +185,7 @@ class FilmProcess:
         return np.asarray(_lines(x) @ self.straight + self.spread * self.process.predict(x))
 
     def left_out(self) -> Array:
-        """Return what each value of the fit misses when it is left out of it, (n,).
+        """Return the leave-one-out error of each value of the fit, (n,).
 
         Lengths and noise stay: a little too good.
         """
@@ -208,7 +208,7 @@ def fit_process(
         First guess of the noise's variance over that of the values.
     smooth
         Any derivative of the values is smooth; else, the second one. Of rough values a process that
-        takes them as smooth errs two or three times as much, with lengths that are too short.
+        takes them as smooth has two or three times the error, with lengths that are too short.
 
     Raises
     ------

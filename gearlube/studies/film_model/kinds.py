@@ -69,7 +69,7 @@ class ContactKind:
     contact
         Class of the contact, a NamedTuple of floats.
     nodes, second
-        Nodes of the grid, and of a second one that tells the error of the first.
+        Nodes of the grid, and of a second one for the error of the first.
     domain, trained
         Limits of the domain, and of the training, which goes a little farther.
     box
@@ -189,7 +189,7 @@ HYPOID_FLANK = ContactKind(
 
 
 def _solve_line_contact(contact: LineContact, nodes: tuple[int, int]) -> Solved:
-    """Return the thermal film of a line contact; `converged` tells whether it was found.
+    """Return the thermal film of a line contact; `converged` is whether it was found.
 
     Parameters
     ----------

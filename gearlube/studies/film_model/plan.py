@@ -54,7 +54,7 @@ class FilmPlan:
     calibration, fresh
         Independent contacts of the box and of the machine that no fit sees.
     fine_box, fine_visited, fine_edge, fine_fresh, fine_calibration
-        How many of the first contacts of each set are solved on the second grid as well. It tells
+        How many of the first contacts of each set are solved on the second grid as well. It shows
         the error of the first.
     seed
         Seed of all random draws.

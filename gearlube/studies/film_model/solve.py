@@ -114,7 +114,7 @@ def contact_problem(contact: FilmContact, nodes: tuple[int, int]) -> PointContac
 
 
 def solve_contact(contact: FilmContact, nodes: tuple[int, int]) -> Solved:
-    """Return the thermal film of a contact; `converged` tells whether it was found.
+    """Return the thermal film of a contact; `converged` is whether it was found.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a computed film is compared with: published formulas where they apply, roughness."""
+"""References for a computed film: published formulas where they apply, and roughness."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def film_ratios(dataset: xr.Dataset) -> dict[str, float]:
 
 
 def film_ratio_finding(dataset: xr.Dataset) -> Finding:
-    """Return what carries the load, or that no roughness was given and which one would matter."""
+    """Return the film ratio as a sentence, or the roughness that would matter if none is given."""
     ratios = film_ratios(dataset)
     if not ratios:
         film = next(iter(least_films(dataset).values()))

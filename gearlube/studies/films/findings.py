@@ -1,4 +1,4 @@
-"""What a film says, in sentences with numbers."""
+"""Findings of a film as sentences with numbers."""
 
 from __future__ import annotations
 

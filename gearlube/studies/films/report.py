@@ -109,7 +109,7 @@ def film_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> R
 
 
 def film_inputs(dataset: xr.Dataset) -> list[Input]:
-    """Return what was given, as far as the attributes of the dataset tell it, in everyday units."""
+    """Return the inputs that the attributes of the dataset have, in everyday units."""
     of = dataset.attrs
     found = [
         Input(name, f"{factor * float(of[key]):.5g}", unit)

@@ -156,7 +156,7 @@ def write_film_results(dataset: xr.Dataset, folder: Path) -> None:
 def begin(folder: Path | None, progress: Progress, sentence: str) -> None:
     """Make the folder of a run before any film is solved, so that a wrong path stops it now.
 
-    Without a folder nothing is written; `progress` is told that nothing is done yet.
+    Without a folder nothing is written; `progress` starts with a share of 0.
     """
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)

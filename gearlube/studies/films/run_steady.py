@@ -186,7 +186,7 @@ def warn_of_ends(film: HelicalFilm) -> None:
 
 
 def warn_of_grid(dataset: xr.Dataset) -> None:
-    """Warn where the estimated error of the grid is large, as the attributes of a film tell it."""
+    """Warn where the estimated error of the grid is large, by the attributes of a film."""
     largest = {name: dataset.attrs[key] for name, key in _ERRORS.items()}
     large = {name: error for name, error in largest.items() if error > LARGE_ERROR}
     if large:

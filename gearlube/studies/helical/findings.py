@@ -1,4 +1,4 @@
-"""What a study of a helical pair says, in sentences with numbers."""
+"""Findings of a study of a helical pair as sentences with numbers."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def findings(datasets: Datasets) -> list[Finding]:
 def order_amplitudes(sweep: xr.Dataset) -> tuple[Array, bool]:
     """Return mesh orders of the dynamic transmission error [um], shape (speeds, orders).
 
-    With the friction of the oil film if the sweep has it, which the second value tells; else with
+    With the friction of the oil film if the sweep has it (the second value is True); else with
     the constant coefficient next to 0.1.
     """
     film = "film_delta_z_harmonic" in sweep

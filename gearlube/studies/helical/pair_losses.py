@@ -105,7 +105,7 @@ def losses_dataset(
     loss = np.empty((*shape, len(PARTS_OF_LOSS)))
     film, thinnest, heat = np.empty(shape), np.empty(shape), np.empty(shape)
     low, high = np.empty(shape), np.empty(shape)
-    doubt, outside = np.empty(shape), np.empty(shape)
+    error, outside = np.empty(shape), np.empty(shape)
     uncertain = uncertain_of(settings.film().oil, settings.film().asperities)
     normals = np.random.default_rng(settings.seed).standard_normal((settings.draws, len(uncertain)))
     for j, torque in enumerate(torques):
@@ -117,7 +117,7 @@ def losses_dataset(
                 point = float(torque), float(speed)
                 cycle, loss[i, j, k] = _losses(fine, loads[0], point, base)
                 film[i, j, k] = cycle.film_ratio[cycle.line_load > 0.0].min()
-                doubt[i, j, k], outside[i, j, k] = cycle.power_loss_bound, cycle.share_outside
+                error[i, j, k], outside[i, j, k] = cycle.power_loss_bound, cycle.share_outside
                 thinnest[i, j, k] = cycle.smallest_film.thickness
                 heat[i, j, k] = cycle.temperature_rise[cycle.line_load > 0.0].max()
                 if settings.draws:
@@ -140,10 +140,10 @@ def losses_dataset(
     }
     if settings.film().film == "solved":
         variables |= {
-            "loss_bound": (GRID, doubt, "W", "bound of the sliding loss by the film model, 95 %"),
+            "loss_bound": (GRID, error, "W", "bound of the sliding loss by the film model, 95 %"),
             "efficiency_bound": (
                 GRID,
-                doubt / (torques[:, None] * speeds),
+                error / (torques[:, None] * speeds),
                 "1",
                 "the same of the efficiency",
             ),

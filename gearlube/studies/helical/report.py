@@ -276,7 +276,7 @@ def _losses(losses: xr.Dataset) -> Table:
 
 
 def _inputs(results: HelicalResults) -> list[Input]:
-    """Return what was used; a section [oil] of the gear file only where its oil was taken."""
+    """Return the inputs that were used; [oil] of the gear file only where its oil was taken."""
     settings, file, film = results.settings, results.settings.file, results.settings.film()
     mu = np.asarray(settings.mu)
     own = GIVEN, "gear file"

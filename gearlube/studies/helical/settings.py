@@ -316,7 +316,7 @@ def _check_film_model(settings: HelicalSettings) -> None:
             f"film model {film.film_models[LINE].name}, got {film.oil.name} at "
             f"{film.oil_temperature - 273.15:.4g} degC, {settings.pinion_torque:g} N.m and "
             f"{settings.pinion_speed:.4g} rad/s with all load outside. `gearlube film-model show` "
-            "tells the domain. Take an oil and an operating point inside it; or train a model for "
+            "shows the domain. Take an oil and an operating point inside it; or train a model for "
             "this oil, `gearlube film-model train --contact line --oil OIL`, and give it with "
             "--film-model or as film.line_model; or take film.model formula."
         )

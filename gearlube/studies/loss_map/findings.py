@@ -1,4 +1,4 @@
-"""What a loss map says, in sentences with numbers."""
+"""Findings of a loss map as sentences with numbers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from gearlube.report.films import (
     MIXED,
     bearing_drag,
     covered_share,
-    efficiency_doubt,
+    efficiency_error,
     film_ratio_level,
     flank_friction,
     hot_film,
@@ -252,8 +252,8 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
     worst = _at(dataset, outside)
     most = float(worst["share_outside"])
     words = f"at most {100.0 * most:.0f} % of the flanks' load, at {words_of(worst)}"
-    doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
-    return [solved_films(bound, most, words + points_beyond(outside), doubt, model)]
+    error, model = efficiency_error(dataset), model_of(dataset, FLANK)
+    return [solved_films(bound, most, words + points_beyond(outside), error, model)]
 
 
 def _rollers(dataset: xr.Dataset) -> list[Finding]:

@@ -222,7 +222,7 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
 
 
 def no_load_table(dataset: xr.Dataset) -> list[Table]:
-    """Return what turning without load takes of each part.
+    """Return the torque of each part when the axle turns without load.
 
     None where no torque is near zero, or where an older map does not know the parts.
     """

@@ -40,7 +40,7 @@ def moving_inputs(dataset: xr.Dataset) -> tuple[dict[str, float], list[str]]:
 
 
 def input_words(name: str) -> str:
-    """Return what figures and tables call an uncertain input.
+    """Return the name of an uncertain input in figures and tables.
 
     >>> input_words("alpha"), input_words("bearing_drag")
     ('pressure-viscosity coefficient', 'bearing drag')

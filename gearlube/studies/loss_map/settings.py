@@ -1,4 +1,4 @@
-"""What a loss map is computed for."""
+"""Settings of a loss map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What measured flanks and the errors of single teeth say, in sentences with numbers."""
+"""Findings of measured flanks and of errors of single teeth as sentences with numbers."""
 
 from __future__ import annotations
 
@@ -65,10 +65,10 @@ def _answer(flanks: xr.Dataset, names: list[str]) -> Finding:
 
 def _settings(flanks: xr.Dataset) -> Finding:
     names = flanks["setting"].values
-    told = []
+    listed = []
     for k, name in enumerate(names):
         part = flanks.isel(setting=k)
-        told.append(
+        listed.append(
             f"{parameter_words(str(name)).replace(': ', ' ')} "
             f"{number_text(float(part['setting_change']))} ± "
             f"{number_text(float(part['setting_uncertainty']), 2)} "
@@ -83,7 +83,7 @@ def _settings(flanks: xr.Dataset) -> Finding:
     return Finding(
         NOTE if sure.all() else WARNING,
         f"Other settings explain the deviations from {quantity_text(before, 'µm')} rms down to "
-        f"{quantity_text(after, 'µm', 2)}: {', '.join(told)}.",
+        f"{quantity_text(after, 'µm', 2)}: {', '.join(listed)}.",
         "The table has corrective settings."
         + (f" Not significantly different from zero: {', '.join(unsure)}." if unsure else ""),
     )

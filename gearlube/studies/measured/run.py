@@ -135,7 +135,7 @@ def measured_flanks(flanks: MeasuredFlanks) -> Any:
 
 
 def tooth_errors(cycle: ToothErrorCycle, name: str) -> Any:
-    """Return what single teeth add to the transmission error: over each turn, and by orders.
+    """Return the transmission error that single teeth add: over each turn, and by orders.
 
     At the lowest and the highest torque on the drive flanks.
     """

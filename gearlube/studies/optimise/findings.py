@@ -1,4 +1,4 @@
-"""What an optimisation says, in sentences with numbers."""
+"""Findings of an optimisation as sentences with numbers."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def decibels(dataset: xr.Dataset, design: str = "better") -> dict[float, float]:
     }
 
 
-def _told(changes: dict[float, float]) -> str:
+def _in_db(changes: dict[float, float]) -> str:
     return ", ".join(
         f"{_signed(change)} dB at {torque:g} N·m" for torque, change in changes.items()
     )
@@ -83,11 +83,11 @@ def _answer(dataset: xr.Dataset) -> Finding:
         worst = dict(zip(changes, map(float, 20.0 * np.log10(ratios)), strict=True))
         at = dataset["whine"].sel(design="better").values
         _, error = np.unravel_index(int(np.argmax(at)), at.shape)
-        with_errors = f"; with the worst of {dataset.sizes['error'] - 1} errors by {_told(worst)}"
+        with_errors = f"; with the worst of {dataset.sizes['error'] - 1} errors by {_in_db(worst)}"
         largest = f" With {_error_words(dataset['error'].values[error])} they are largest."
     return Finding(
         GOOD if max(*changes.values(), *worst.values()) < 0.0 else WARNING,
-        f"Without errors all mesh orders together change by {_told(changes)}{with_errors}.",
+        f"Without errors all mesh orders together change by {_in_db(changes)}{with_errors}.",
         f"Without errors: {sizes} (root of the sum of squares).{largest}",
     )
 
@@ -110,11 +110,11 @@ def _limits(rows: list[MeasureRow]) -> list[Finding]:
         for one in broken
     ]
     if active:
-        told = "; ".join(f"{one.what} at {one.torque:g} N·m" for one in active[:_NAMED])
+        listed = "; ".join(f"{one.what} at {one.torque:g} N·m" for one in active[:_NAMED])
         found.append(
             Finding(
                 NOTE,
-                f"{len(active)} of {len(limited)} limits are active: {told}.",
+                f"{len(active)} of {len(limited)} limits are active: {listed}.",
                 "They limit the result: looser ones would give lower mesh orders.",
             )
         )
@@ -132,11 +132,11 @@ def _worse(rows: list[MeasureRow]) -> Finding:
              one.after > 0.0 == one.before]  # fmt: skip
     if not worse:
         return Finding(GOOD, "No measure got worse at any torque.")
-    told = "; ".join(_growth(one) for one in worse[:_NAMED])
+    listed = "; ".join(_growth(one) for one in worse[:_NAMED])
     more = f"; and {len(worse) - _NAMED} more" if len(worse) > _NAMED else ""
     return Finding(
         NOTE,
-        f"{len(worse)} of {len(rows)} measures got worse: {told}{more}.",
+        f"{len(worse)} of {len(rows)} measures got worse: {listed}{more}.",
         "The table has all measures before and after.",
     )
 
@@ -150,7 +150,7 @@ def _bounds(dataset: xr.Dataset) -> list[Finding]:
     part = dataset.sel(design="better")
     value, low, high = (part[name].values for name in ("value", "low", "high"))
     near = _NEAR * (high - low)
-    told = [
+    listed = [
         f"{name} = {quantity_text(at, _UNITS.get(str(unit), str(unit)))}"
         for name, unit, at, reached in zip(
             part["parameter"].values,
@@ -161,13 +161,13 @@ def _bounds(dataset: xr.Dataset) -> list[Finding]:
         )
         if reached
     ]
-    if not told:
+    if not listed:
         return []
-    verb = "is at its bound" if len(told) == 1 else "are at their bounds"
+    verb = "is at its bound" if len(listed) == 1 else "are at their bounds"
     return [
         Finding(
             NOTE,
-            f"{len(told)} of {value.size} fields {verb}: {'; '.join(told)}.",
+            f"{len(listed)} of {value.size} fields {verb}: {'; '.join(listed)}.",
             "Wider bounds, if they can be manufactured, may give lower mesh orders.",
         )
     ]
@@ -205,7 +205,7 @@ def _nominal(dataset: xr.Dataset) -> list[Finding]:
             NOTE,
             f"The pair that is best without errors has {quantity_text(other, 'µrad')} with the "
             f"worst error, the better pair {quantity_text(own, 'µrad')}.",
-            f"Without errors it changes by {_told(decibels(dataset, 'nominal'))}.",
+            f"Without errors it changes by {_in_db(decibels(dataset, 'nominal'))}.",
         )
     ]
 

@@ -1,4 +1,4 @@
-"""What a resonance study says, in sentences with numbers."""
+"""Findings of a resonance study as sentences with numbers."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def _jumped(response: xr.Dataset, model: str) -> Finding:
             GOOD, "The amplitude has no jumps: slow sweeps up and down pass without a step."
         )
     words = {"up": "rising", "down": "falling"}
-    told = "; ".join(
+    listed = "; ".join(
         f"with {words[one.direction]} speed at {one.relative_frequency:.3f} "
         f"({pinion_rpm(response, one.relative_frequency):.0f} rpm) from "
         f"{quantity_text(_MICRO * one.before, 'µm')} to {quantity_text(_MICRO * one.after, 'µm')}"
@@ -152,7 +152,7 @@ def _jumped(response: xr.Dataset, model: str) -> Finding:
     count = {1: "once", 2: "twice"}.get(len(found), f"{len(found)} times")
     return Finding(
         WARNING,
-        f"The amplitude jumps {count}: {told}.",
+        f"The amplitude jumps {count}: {listed}.",
         "Peak to peak, at parts of the natural frequency. Between a jump up and a jump down two "
         "stable motions exist: which one runs depends on where the speed came from.",
     )
@@ -205,18 +205,18 @@ def _unstable(response: xr.Dataset, model: str) -> list[Finding]:
 
 def _beside(every: dict[str, ModelSummary], model: str) -> list[Finding]:
     own = every[model].peak
-    told = [
+    listed = [
         f"{words} {quantity_text(_MICRO * every[name].peak, 'µm')} "
         f"({100.0 * (every[name].peak / own - 1.0):+.0f} %)".replace("-", "−")
         for name, words in _SIMPLER.items()
         if name in every and name != model
     ]
-    if not told:
+    if not listed:
         return []
     return [
         Finding(
             NOTE,
-            f"The largest response of simpler models is {', '.join(told)}.",
+            f"The largest response of simpler models is {', '.join(listed)}.",
             f"Compared with {quantity_text(_MICRO * own, 'µm')}, {MODELS[model]}.",
         )
     ]

@@ -111,7 +111,7 @@ class ResonanceSettings:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What leaves the range of its table, one sentence each."""
+        """Quantities outside the range of their table, one sentence each."""
         if self.mesh is None or self.pinion_torque <= self.mesh.torque[-1]:
             return ()
         return (

@@ -1,4 +1,4 @@
-"""What the roughness commands write: statistics of surfaces, flow factors, asperity load."""
+"""Results of the roughness commands: statistics of surfaces, flow factors, asperity load."""
 
 from __future__ import annotations
 
@@ -174,7 +174,7 @@ def statistics_rows(surface: Surface) -> list[Row]:
 
 
 def reached_rows(generated: Generated[Profile] | Generated[HeightMap]) -> list[Row]:
-    """Return what a generated surface reached against what was asked."""
+    """Return reached and requested statistics of a generated surface."""
     rows = []
     for one in generated.statistics:
         factor, unit = (1e6, "um") if one.unit == "m" else (1.0, one.unit)

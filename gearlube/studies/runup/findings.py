@@ -1,4 +1,4 @@
-"""What a run-up says, in sentences with numbers."""
+"""Findings of a run-up as sentences with numbers."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 
 SWEEP_RATE = 3.6  # z^2 f^2 Hz/s, [iso_7626_2]: 216 z^2 f^2 Hz/min
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
-_MARKED = 3  # mesh orders whose critical speeds are told
+_MARKED = 3  # mesh orders whose critical speeds are listed
 _NAMED = 3  # critical speeds that are named one by one
 _NARROW = 0.15  # of a speed: a margin below it is worth a warning
 
@@ -226,7 +226,7 @@ def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     outside = [one for one in critical if one.margin != 0.0 and one.mesh_order in asked]
     found = []
     if inside:
-        told = "; ".join(
+        named_parts = "; ".join(
             f"order {one.mesh_order} with '{one.mode}' at {_speed(dataset, one.speed_rpm)}, "
             f"{quantity_text(one.force, 'N')}"
             for one in inside[:_NAMED]
@@ -237,7 +237,7 @@ def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
                 NOTE,
                 f"Mesh orders 1 to {_MARKED} meet natural frequencies at {len(inside)} speeds of "
                 "the ramp.",
-                f"By force: {told}{f'; and {more} more' if more > 0 else ''}. The table of "
+                f"By force: {named_parts}{f'; and {more} more' if more > 0 else ''}. The table of "
                 "critical speeds has all.",
             )
         )

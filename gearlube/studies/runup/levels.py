@@ -66,7 +66,7 @@ def speed_axis(ax: Any, dataset: xr.Dataset, *, label: bool = True, top: bool = 
 
 
 def heading(dataset: xr.Dataset) -> str:
-    """Return what ran, "run-up, 80 N·m at the pinion"."""
+    """Return a label of the run, "run-up, 80 N·m at the pinion"."""
     torque = float(dataset.attrs["setting_pinion_torque"])
     words = f"{torque:g} N·m at the pinion"
     if dataset.attrs.get("setting_driver") == "vehicle":

@@ -1,4 +1,4 @@
-"""What a run-up or coast-down is computed for."""
+"""Settings of a run-up or coast-down."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class RunupSettings:
     oil_temperature : float
         Temperature of the oil [K].
     order_resolution : float
-        Smallest distance of two orders that can be told apart [-]; 1 divided by a whole number of
+        Smallest distance of two orders that are separated [-]; 1 divided by a whole number of
         pinion revolutions.
     highest_frequency : float
         End of the spectra [Hz].
@@ -189,7 +189,7 @@ class RunupSettings:
                 cures.append(f"resolve orders {coarser:.3g} apart")
             raise ParameterError(
                 f"The pinion speed must change by at most {100.0 * LARGEST_CHANGE:g} % within the "
-                f"{self.revolutions} revolutions that tell orders {resolution:.3g} apart, got "
+                f"{self.revolutions} revolutions that separate orders {resolution:.3g} apart, got "
                 f"{100.0 * change:.3g} % at {rads_to_rpm(slow):.0f} rpm: the ramp is too fast. "
                 f"For this ramp {', or '.join(cures)}."
             )
@@ -197,7 +197,7 @@ class RunupSettings:
         if turned < LEAST_BLOCKS:
             raise ParameterError(
                 f"The ramp must hold {LEAST_BLOCKS} times the {self.revolutions} revolutions that "
-                f"tell orders {resolution:.3g} apart, got {turned:.2g} times. Take at least "
+                f"separate orders {resolution:.3g} apart, got {turned:.2g} times. Take at least "
                 f"{_up(self.duration * LEAST_BLOCKS / turned)} s."
             )
 

@@ -113,7 +113,7 @@ def _on(time: Array, at: Array, values: Array) -> Array:
 
 
 def order_name(order: float, teeth: int) -> str:
-    """Return what an order is called.
+    """Return the name of an order.
 
     Examples
     --------
@@ -142,7 +142,7 @@ _RANGE = 60.0  # dB below the loudest, the most that is drawn
 
 
 def level_names(dataset: xr.Dataset) -> list[str]:
-    """Return what the levels of a run are: the whole sound and the tracked orders."""
+    """Return the names of the levels of a run: the whole sound and the tracked orders."""
     teeth = int(dataset.attrs["pinion_teeth"])
     return ["whole sound", *(order_name(float(q), teeth) for q in dataset["order"])]
 

@@ -20,7 +20,7 @@ from gearlube_core.errors import ParameterError
 
 @dataclass(frozen=True, slots=True)
 class Metric:
-    """What a metric is.
+    """A metric of sound: unit, standard, description.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is heard of a run, and how it is written."""
+"""Settings of the sound of a run, and of its files."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class SoundSettings:
     metrics : tuple of str
         Which of `METRICS` are computed. Empty: levels and order tracks only.
     revolutions : int
-        Number of pinion revolutions in a block of the order tracks [-]; orders can be told apart if
+        Number of pinion revolutions in a block of the order tracks [-]; orders are separated if
         their distance is at least 1/revolutions.
 
     Raises

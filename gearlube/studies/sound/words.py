@@ -1,4 +1,4 @@
-"""What a run sounds like, and what a listener hears of the difference between two runs."""
+"""Findings on the sound of a run, and on the audible difference between two runs."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def sound_sentences(dataset: xr.Dataset) -> list[str]:
 
 
 def limit_sentences(dataset: xr.Dataset) -> list[str]:
-    """Return what the results hold for and what is not in them."""
+    """Return the scope of the results and what they leave out."""
     low, high = dataset.attrs["band_hz"]
     sentences = [
         f"Sound between {low:.0f} and {high:.0f} Hz; one listener, one ear.",
@@ -164,7 +164,7 @@ def over_speed(dataset: xr.Dataset, values: Array, speeds: Array, unit: str) -> 
 
 
 def difference_sentences(a: xr.Dataset, b: xr.Dataset) -> list[str]:
-    """Return what is different in B, in a listener's terms, the clearest first."""
+    """Return the differences of B as a listener hears them, the clearest first."""
     speeds = common_speeds(a, b)
     unit = "km/h" if "vehicle_speed" in a and "vehicle_speed" in b else "rpm"
     ramp = is_ramp(a) and is_ramp(b)
@@ -236,10 +236,10 @@ def _orders(
             found.append((loud, f"At {name} {name_b} is {' and '.join(stretches)}."))
         else:
             silent.append(name)
-    told = [text for _, text in sorted(found, key=lambda one: -one[0])]
+    listed = [text for _, text in sorted(found, key=lambda one: -one[0])]
     if silent:
-        told.append(f"Also different, but not heard above the rest: {', '.join(silent)}.")
-    return told
+        listed.append(f"Also different, but not heard above the rest: {', '.join(silent)}.")
+    return listed
 
 
 def _stretches(change: Array, speeds: Array, unit: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""What a sweep says, in sentences with numbers."""
+"""Findings of a sweep as sentences with numbers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gearlube.report.churning import regime_findings
 from gearlube.report.films import (
     bearing_drag,
     covered_share,
-    efficiency_doubt,
+    efficiency_error,
     film_ratio_level,
     film_ratio_words,
     flank_friction,
@@ -182,14 +182,14 @@ def _resonance(dataset: xr.Dataset) -> list[Finding]:
             )
         ]
     first_order = [one for one in inside if one.order == 1]
-    told = first_order or inside
-    more = f", and {len(told) - _NAMED} more" if len(told) > _NAMED else ""
+    listed = first_order or inside
+    more = f", and {len(listed) - _NAMED} more" if len(listed) > _NAMED else ""
     return [
         Finding(
             NOTE,
             f"Mesh orders 1 to {ORDERS[-1]} meet natural frequencies {len(inside)} times {span}; "
             f"{len(first_order)} of these are order 1.",
-            f"At preload {told[0].preload:g} N: {'; '.join(map(str, told[:_NAMED]))}{more}. "
+            f"At preload {listed[0].preload:g} N: {'; '.join(map(str, listed[:_NAMED]))}{more}. "
             "The table of natural frequencies lists all.",
         )
     ]
@@ -281,8 +281,8 @@ def _solved(dataset: xr.Dataset) -> list[Finding]:
         return []
     bound = covered_share(dataset["friction_loss_bound"], flank_friction(dataset["loss"]))
     most, words = _outside(dataset["share_outside"], "flanks")
-    doubt, model = efficiency_doubt(dataset), model_of(dataset, FLANK)
-    return [solved_films(bound, most, words, doubt, model)]
+    error, model = efficiency_error(dataset), model_of(dataset, FLANK)
+    return [solved_films(bound, most, words, error, model)]
 
 
 def _taken(dataset: xr.Dataset, bound: str, outside: str) -> bool:

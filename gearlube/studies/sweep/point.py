@@ -66,7 +66,7 @@ class _PythonAxle:
 
     @property
     def warnings(self) -> list[str]:
-        """What left its range since the start, each said once."""
+        """Quantities that left their range since the start, each once."""
         return list(self._warned.values())
 
     def initialise(self, pinion_torque: float, wheel_torque: float, temperature: float) -> None:

@@ -1,4 +1,4 @@
-"""What a recorded point is reduced to: one number per quantity, spectra, waveforms, mesh cycles."""
+"""Reduction of a recorded point: one number per quantity, spectra, waveforms, mesh cycles."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ _LIMITS = (
 
 
 class Mover(NamedTuple):
-    """What the tolerance of one parameter changes of one mesh order, at most over the speeds."""
+    """Largest change of one mesh order over the speeds by the tolerance of one parameter."""
 
     parameter: str
     tolerance: float

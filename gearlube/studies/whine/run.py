@@ -97,7 +97,7 @@ class WhineSettings:
 
 
 class WhineRow(NamedTuple):
-    """What the tolerance of one parameter changes at most, to first order."""
+    """Largest change by the tolerance of one parameter, to first order."""
 
     parameter: str
     tolerance: float

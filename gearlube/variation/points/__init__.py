@@ -1,1 +1,1 @@
-"""What each study computes at one point of a variation."""
+"""Computation of each study at one point of a variation."""

@@ -1,4 +1,4 @@
-"""What the studies of an axle, and those of one gear or bearing file, have in common."""
+"""Common parts of the studies of an axle, and of those of one gear or bearing file."""
 
 from __future__ import annotations
 

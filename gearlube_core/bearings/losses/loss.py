@@ -202,8 +202,8 @@ def bearing_loss(
     if found.rib > 0.0:
         share = parts["rib"] / sum(parts.values())
         load = row.rib_share * float(loads.max())
-        doubt = _rib_doubt(row.rib, load, float(speed), state, share)
-        factor = math.exp(math.hypot(math.log(factor), doubt))
+        error = _rib_error(row.rib, load, float(speed), state, share)
+        factor = math.exp(math.hypot(math.log(factor), error))
     return _sum(
         parts,
         speed,
@@ -212,7 +212,7 @@ def bearing_loss(
     )
 
 
-def _rib_doubt(
+def _rib_error(
     rib: RibParameters, load: float, speed: float, oil: LubricantState, share: float
 ) -> float:
     """Return the logarithm of the factor (k = 2) on the torque that data of the rib leave open.

@@ -59,7 +59,7 @@ FREE = {"twelve_dof": 5, "six_dof": 2}
 
 
 class StepControl(NamedTuple):
-    """What the integrator step is tied to."""
+    """Periods that limit the integrator step."""
 
     steps_per_mesh_period: float
     steps_per_highest_period: float

@@ -187,7 +187,7 @@ class HelicalPairParameters:
         return effective_mass(self.pair, self.pinion_polar_inertia, self.gear_polar_inertia)
 
     def kernel_parameters(self) -> PairConstants:
-        """Return what the kernels take by value."""
+        """Return the arguments that the kernels take by value."""
         return PairConstants(
             plane=self.pair.plane,
             m_p=self.pinion_mass,

@@ -68,7 +68,7 @@ def _add_extremes(
     work: Array,
     found: Array,
 ) -> None:
-    """Keep in `found` what an angle exceeds, and means of what tells about a film model.
+    """Keep in `found` the ranges that an angle exceeds, and means of the film model's outputs.
 
     Parameters
     ----------

@@ -126,7 +126,7 @@ class Turning(NamedTuple):
 def drag_at(
     u: Array, w_p: float, w_g: float, oil: LubricantState, table: MeshLevels, p: AxleParameters
 ) -> Drag:
-    """Return what drags on both shafts displaced by `u` [m] at their speeds [rad/s]."""
+    """Return the drag on both shafts displaced by `u` [m] at their speeds [rad/s]."""
     pinion, gear = pinion_motion(u, w_p), gear_motion(u, w_g)
     films = RollerFilms(table.roller_model, u[0:0], 0.0)
     races_p = raceways_of_shaft(p.bearing_p, pinion, p.drag, oil, films)

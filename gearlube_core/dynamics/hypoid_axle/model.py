@@ -61,7 +61,7 @@ _WORDS = Words(
 
 
 class StepControl(NamedTuple):
-    """What the integrator step is tied to."""
+    """Periods that limit the integrator step."""
 
     least_rate: float  # integrator steps a second
 

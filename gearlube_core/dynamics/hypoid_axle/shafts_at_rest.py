@@ -33,7 +33,7 @@ REST_WORK = _AT_NEWTON + newton_work_size(N_FREE)
 
 
 class _Problem(NamedTuple):
-    """What the displacements at rest depend on."""
+    """Inputs of the displacements at rest."""
 
     forces: Array  # from outside on pinion and gear, x y z of each [N]
     oil: LubricantState

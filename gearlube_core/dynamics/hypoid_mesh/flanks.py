@@ -146,7 +146,7 @@ def flank_sum(
     viscous = 0.0
     boundary = 0.0
     rolled = 0.0
-    doubt = 0.0
+    error = 0.0
     if (p.friction != 0.0 or p.rolling != 0.0) and force != 0.0:
         for pair in range(_PAIRS):
             pair_channels(window, n_nodes, p.mesh.z_p, motion.angle, pair, N_CHANNELS, channels)
@@ -186,7 +186,7 @@ def flank_sum(
                     f_z -= f * channels[XI_Z]
                     viscous += f_v * abs(sliding)
                     boundary += f_b * abs(sliding)
-                    doubt += friction[BOUND + pair] * load * abs(sliding)
+                    error += friction[BOUND + pair] * load * abs(sliding)
                 if p.rolling != 0.0:
                     speed = motion.w_p + p.ratio * motion.w_g
                     rolling = 0.5 * channels[ROLL] * speed
@@ -209,5 +209,5 @@ def flank_sum(
         # teeth may touch before the next refresh: what stands here is then used
         for i in range(BOUND_POWER):
             friction[i] = 0.0
-    friction[BOUND_POWER] = doubt
+    friction[BOUND_POWER] = error
     return FlankSum(torque_p, torque_g, f_x, f_y, f_z, viscous, boundary, rolled)

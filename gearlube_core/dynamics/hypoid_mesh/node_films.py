@@ -1,4 +1,4 @@
-"""What a film model and asperities give at the nodes of the mesh table.
+"""Film and asperity data at the nodes of the mesh table.
 
 It is part of the state of an axle. Evaluating the model takes longer than all else of a flank, and
 in steady running each tooth pair meets a node under the load and speed of the pair before it. So
@@ -193,5 +193,5 @@ def flank_between(
 
 @kernel
 def film_of(flank: NodeFlank) -> ModelFilm:
-    """Return what the film model gives for a flank."""
+    """Return film and friction of a flank by the film model."""
     return ModelFilm(flank.log_film, flank.log_friction, flank.outside)

@@ -116,11 +116,11 @@ class HypoidAxleParameters(AxleScalars):
     film : {"formula", "solved"}
         Central film and friction of the oil on the flanks: "formula", Chittenden 1985 with Evans
         and Johnson 1986, or "solved", by a model of solved thermal Eyring films, see `solved_film`;
-        outside its domain the formulas come in. Friction of asperities is as `friction` says.
+        outside its domain formulas are used. Friction of asperities is as `friction` says.
     flank_film_model, roller_film_model : FilmModel, optional
         Models of solved films, of flanks for `film` and of rollers for `bearing_torque_loss`;
         default: those in the package. `FilmModel.named` reads a file. Where a model says nothing
-        of the oil, the formulas come in; `check_oil_of_models` tells.
+        of the oil, formulas are used; `check_oil_of_models` reports it.
     film_limiting_slope : float
         Limiting shear stress of the film over pressure [-], 0 for none: the film model knows none,
         so contacts whose mean stress comes near it count as outside.

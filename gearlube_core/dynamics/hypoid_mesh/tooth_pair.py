@@ -89,7 +89,7 @@ def pair_film(
     law: FlankLaw,
     film_model: Array,
 ) -> ModelFilm:
-    """Return what the film model gives for one flank; others as in `pair_friction`."""
+    """Return film and friction of one flank by the film model; others as in `pair_friction`."""
     return model_film(
         law,
         load,
@@ -232,7 +232,7 @@ def flank_film(
     refresh: float,
     films: Array,
 ) -> ModelFilm:
-    """Return what the film model gives for one flank, or NO_MODEL_FILM where the law takes none.
+    """Return film and friction of one flank by the film model; NO_MODEL_FILM if the law has none.
 
     At the contact itself where `refresh` is EXACT, else as `flank_at_nodes`. `load` of this pair
     [N]; others as there.

@@ -78,14 +78,14 @@ class Assembly(NamedTuple):
 
 
 class Bodies(Protocol):
-    """What a list has as a body: a rigid one, or one that stands for several."""
+    """A body of a list: a rigid one, or one that stands for several."""
 
     @property
     def name(self) -> str:
         """Name of the body."""
 
     def members(self) -> tuple[list[Body], list[Element]]:
-        """Return what stands for it in the train."""
+        """Return its body in the train."""
 
 
 def _expanded(

@@ -94,7 +94,7 @@ def _counts() -> Offsets:
 
 
 def check_kernel(elements: AllElements) -> Callable[..., bool]:
-    """Return the kernel that tells whether numbers, memory and plan of a file are a train.
+    """Return the kernel that checks whether numbers, memory and plan of a file are a train.
 
     It takes a state of the oil and the three arrays. `elements` are those of `interpreted`.
     """

@@ -1,4 +1,4 @@
-"""What the loaded contact of a helical pair gives to a mesh with stations across the face."""
+"""Stations across the face of a mesh, from the loaded contact of a helical pair."""
 
 from __future__ import annotations
 

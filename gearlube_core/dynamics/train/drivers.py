@@ -108,7 +108,7 @@ class _Source:
     """Source of a function that makes one kernel of every name for all elements.
 
     Its arguments are classes, kernels and whole numbers, which become constants of the compiled
-    code: the cache on disk tells them apart, as it does not tell numbers in the text.
+    code: the cache on disk distinguishes them, as it does not distinguish numbers in the text.
     """
 
     def __init__(self) -> None:

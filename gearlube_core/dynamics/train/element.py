@@ -1,4 +1,4 @@
-"""What the elements of a train are to its kernels, and where bodies stand in its state.
+"""Kernels of the elements of a train, and the places of bodies in its state.
 
 A body owns twelve states: displacements x, y, z [m] and angles rx, ry, rz [rad] about axes fixed in
 space, then their rates. An element is a NamedTuple of floats whose kernels are methods, as of a
@@ -28,7 +28,7 @@ RZ, W = 5, 11  # angle [rad] and speed [rad/s] about the shaft's axis z
 
 
 class Listed(NamedTuple):
-    """What of one element the kernels of a list are compiled for."""
+    """Part of one element for which the kernels of a list are compiled."""
 
     numbers: type  # NamedTuple class of its constants
     variants: tuple[type, ...]  # classes of its parts, see `tuple_from_array`

@@ -260,7 +260,7 @@ def exponential_kernel(
     def add_losses(p: Places, room: Array, at: int, weight: float) -> None:
         """Add losses of linear elements at a speed of the modes times a weight.
 
-        The forces of `couple` stand there: they tell all losses together, hence one of them.
+        The forces of `couple` stand there: they give all losses together, so one of them suffices.
         """
         n, v, last = p.modes, vector(room, p, at), 0
         left, count = dot(v, vector(room, p, COUPLED)), int(room[p.losing])

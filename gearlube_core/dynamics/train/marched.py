@@ -1,4 +1,4 @@
-"""What all models of trains share: a state, the function that moves it, copies of both."""
+"""Common base of all models of trains: a state, the function that moves it, copies of both."""
 
 from __future__ import annotations
 

@@ -198,7 +198,7 @@ class Train(MarchedTrain):
         return self._state, self._work
 
     def exceeded(self) -> dict[str, str]:
-        """Return what is outside its range now: a sentence for each, by its output.
+        """Return all quantities that are out of range now: a sentence for each, by its output.
 
         Tables and formulas are extrapolated there.
         """
@@ -267,7 +267,7 @@ class Train(MarchedTrain):
         return self._exchanged(self._at(continuous))[self._rate_places]
 
     def indicators(self, continuous: Array) -> Array:
-        """Return what changes its sign where `event` has to be called.
+        """Return the indicators whose change of sign needs a call of `event`.
 
         The arguments and errors are those of `derivative`; `assembly.events` has names and words.
         """

@@ -76,7 +76,7 @@ class Body:
         return cls(name=name, mass=1.0, inertia=1.0, polar_inertia=polar_inertia, held=held)
 
     def members(self) -> tuple[list[Body], list[Element]]:
-        """Return what stands for it in the train: itself."""
+        """Return its body in the train: itself."""
         return [self], []
 
     @property
@@ -142,7 +142,7 @@ class AxisPlace(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Element(Checked, ABC):
-    """What acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels.
+    """A part that acts on bodies: derive a frozen dataclass, and give it a NamedTuple of kernels.
 
     One with a `kind`, its name in files, registers itself. Its fields are then the fields of the
     file: a `Number` with its unit, a text, a part such as a bearing.
@@ -193,7 +193,7 @@ class Element(Checked, ABC):
         return ()
 
     def memory(self) -> Array:
-        """Return what the kernels take as `memory`: a new array."""
+        """Return a new array for `memory` of the kernels."""
         return NO_NUMBERS
 
     def memory_among(self, bodies: Sequence[Body]) -> Array:

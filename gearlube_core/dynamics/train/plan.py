@@ -1,4 +1,4 @@
-"""Plan of a train: whole numbers that tell the kernels where everything of it stands.
+"""Plan of a train: whole numbers that give the kernels the place of everything in it.
 
     sizes | a row for each element, in the order of the list | places of coordinates
 

@@ -32,7 +32,7 @@ _MOST_POINTS = 100_000
 
 
 def skew_factor(order: float, angle: float, steps: int = 0) -> float:
-    """Return what a skewed rotor or stator leaves of the torque ripple of an order [-].
+    """Return the share of torque ripple of an order that skew leaves [-].
 
     |sin(nu e / 2) / (nu e / 2)|, or in K steps |sin(nu e / 2) / (K sin(nu e / (2 K)))|
 

@@ -172,7 +172,7 @@ class SteppedModel(MarchedTrain, Generic[Control]):
 
     @abstractmethod
     def _step_control(self, rate: float) -> Control:
-        """Return what the integrator step is tied to, from the least rate that START has found."""
+        """Return the periods that limit the step, from the least rate that START has found."""
 
     @abstractmethod
     def _gather(self) -> None:
@@ -183,7 +183,7 @@ class SteppedModel(MarchedTrain, Generic[Control]):
 
     @property
     def step_control(self) -> Control:
-        """What the integrator step is tied to."""
+        """Periods that limit the integrator step."""
         return self._control_type(*self._control_values.tolist())
 
     def initialise(
@@ -291,7 +291,7 @@ class SteppedModel(MarchedTrain, Generic[Control]):
         return float(self._outputs[self.output_names.index(name)])
 
     def exceeded(self) -> dict[str, str]:
-        """Return what the last step left the range of: a sentence for each, by its output.
+        """Return all ranges that the last step left: a sentence for each, by its output.
 
         Tables and formulas are extrapolated there. docs/fmu.md lists the ranges. Shares of load
         outside a film model are among them.

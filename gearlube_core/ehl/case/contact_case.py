@@ -65,7 +65,7 @@ _ROUGHNESS = (
 
 
 class ContactCase(FilmCase):
-    """What line and point contacts share: speeds along x, solids, oil."""
+    """Common fields of line and point contacts: speeds along x, solids, oil."""
 
     files: ClassVar[tuple[str, ...]] = (
         "profile.file",

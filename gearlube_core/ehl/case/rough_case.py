@@ -68,7 +68,7 @@ class RoughTimes(Section):
 
 
 class RoughSolids(Section):
-    """What carries load where the film vanishes."""
+    """Layer that carries load where the film vanishes."""
 
     thickness_um: Layer = Field(
         default=0.01,
@@ -257,7 +257,7 @@ class RoughCase(ContactCase):
         )
 
     def touching_solids(self) -> SolidContact | None:
-        """Return what carries load where the film vanishes, in SI units."""
+        """Return the layer that carries load where the film vanishes, in SI units."""
         if self.touching.thickness_um == 0.0:
             return None
         return SolidContact(
@@ -281,15 +281,15 @@ class RoughCase(ContactCase):
         return tuple(sorted({*regular, *(k for k in self.frames.steps if k <= last)}))
 
     def _unsaid(self) -> set[str]:
-        """Return what a solver setting left the records of before say nothing about."""
+        """Return a digest of the settings on which kept records depend."""
         return {"discretisation"} if self.solver.discretisation == "differences" else set()
 
     def key(self) -> str:
         """Return a key of all that the march depends on: not of names and frames."""
-        told = self.model_dump_json(
+        listed = self.model_dump_json(
             exclude={"name": True, "source": True, "frames": True, "solver": self._unsaid()}
         )
-        digest = hashlib.sha256(told.encode())
+        digest = hashlib.sha256(listed.encode())
         if self.oil.from_file:
             digest.update(repr(self.oil.film_oil()).encode())
         for one in self.surfaces():

@@ -24,7 +24,7 @@ from gearlube_core.oil.sheared_film import layered_stress, shear_rate
 
 
 class FilmFields(NamedTuple):
-    """What the energy balance takes from a film on n nodes, in the direction of entrainment."""
+    """Film data for the energy balance on n nodes, in the direction of entrainment."""
 
     p: np.ndarray  # [Pa]
     p_slope: np.ndarray  # [Pa/m]

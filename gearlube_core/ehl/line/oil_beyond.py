@@ -17,7 +17,7 @@ _THICK = 3.0  # films of gap on a border, below which it cuts the contact
 
 
 class OilBeyond(NamedTuple):
-    """What the oil outside the domain does."""
+    """Effect of the oil outside the domain."""
 
     pressure: float  # on the upstream border [Pa]
     load: float  # per length [N/m]
@@ -31,7 +31,7 @@ NOTHING = OilBeyond(0.0, 0.0, 0.0, 0.0)
 def oil_beyond(
     problem: LineProblem, limits: tuple[float, float], speed_1: float, speed_2: float
 ) -> OilBeyond:
-    """Return what the oil does from both borders to infinity, between two parabolas.
+    """Return the effect of the oil from both borders to infinity, between two parabolas.
 
     dq/dx = 12 eta0 u (h - h*)/h^3,  p = -ln(1 - alpha q)/alpha,  tau = eta0 (u_2 - u_1) s/h,
     s = 1 upstream, h*/h of streaks downstream

@@ -64,7 +64,7 @@ class LineMarch:
     Where a film without mass conservation is broken, what gathers is the whole gap. Where no film
     is found, the step is solved again with solids that touch at `contact_film`: load and balances
     of all other nodes hold, what oil a held film makes is `contact_flow` of the solution.
-    Each solution tells about what the time steps cost its smallest film, see `TimeError`, and the
+    Each solution has the error of its smallest film by time steps, see `TimeError`, and the
     errors of grid and domain that the start has.
     """
 

@@ -86,7 +86,7 @@ def dry_contact_of_gap(
         Solids and pressure repeat along y, beyond the cells of the last row; the load is that of
         one period.
     throw
-        Raise when the iteration does not converge; else `outcome` tells.
+        Raise when the iteration does not converge; else see `outcome`.
 
     Raises
     ------

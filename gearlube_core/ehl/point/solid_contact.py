@@ -108,7 +108,7 @@ class Touch:
 
     @classmethod
     def of(cls, solids: SolidContact | None, film: Array, cells: Array, load: float) -> Touch:
-        """Return what the solids carry.
+        """Return the load of the solids.
 
         Parameters
         ----------

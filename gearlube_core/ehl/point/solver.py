@@ -29,7 +29,7 @@ from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.errors import ConvergenceError, ParameterError
 from gearlube_core.storage.process_pool import on_one_thread
 
-_COARSER_TOLERANCE = 1e-5  # of a film that only tells the error of a finer grid
+_COARSER_TOLERANCE = 1e-5  # of a film that only gives the error of a finer grid
 
 
 def _hertz_start(problem: PointContactProblem, level: PointLevel) -> FilmState:

@@ -1,4 +1,4 @@
-"""What a rough film does over time: contact, load of solids, distributions, friction."""
+"""Statistics of a rough film over time: contact, load of solids, distributions, friction."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ _BEYOND = 1.5  # the least film, which is aimed at
 
 @dataclass(frozen=True, slots=True)
 class FilmConditions:
-    """What acts on a film at one time, on the nodes of one grid.
+    """Terms that act on a film at one time, on the nodes of one grid.
 
     Parameters
     ----------

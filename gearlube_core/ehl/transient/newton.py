@@ -158,7 +158,7 @@ def advance_front(level: MovingLevel, state: FilmState, size: float) -> tuple[Fi
 
 @dataclass(slots=True)
 class StepRecord:
-    """What the iteration of one time step did."""
+    """Outcome of the iteration of one time step."""
 
     converged: bool
     residual: float  # as `flow_residual`

@@ -209,7 +209,7 @@ def contact_sensitivity(
 
 
 def _unloaded(variations: Variations) -> Record:
-    """Return what is known without load; NaN where teeth meet at edges or flanks are corrected."""
+    """Return derivatives without load; NaN where teeth meet at edges or flanks are corrected."""
     count = len(variations.parameters)
     names = ("unloaded_pp", "unloaded_s", "unloaded_t")
     found: Record = {name: np.array(np.nan) for name in names}

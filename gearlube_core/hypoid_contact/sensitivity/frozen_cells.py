@@ -24,7 +24,7 @@ _FIXED = Placement(_ORIGIN, Vector(0.0, 0.0, 1.0), 1.0, 0.0, 1.0, 0.0, _ORIGIN)
 
 @dataclass(frozen=True, slots=True)
 class CellGeometry:
-    """What decides the load of n cells, and what is made of it.
+    """Inputs of the load of n cells, and its results.
 
     Parameters
     ----------

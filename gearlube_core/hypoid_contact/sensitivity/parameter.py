@@ -1,4 +1,4 @@
-"""What tooth contact is differentiated by: a field of the gear file or a misalignment."""
+"""Parameter of derivatives of tooth contact: a field of the gear file or a misalignment."""
 
 from __future__ import annotations
 
@@ -191,7 +191,7 @@ def _is_free(file: HypoidGearFile, name: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Variations:
-    """What all derivatives of a pair are taken from.
+    """Analysis from which all derivatives of a pair are taken.
 
     Parameters
     ----------

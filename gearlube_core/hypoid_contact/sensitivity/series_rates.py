@@ -52,7 +52,7 @@ class SeriesSettings:
     torque : float
         Torque on the pinion [N.m], 0.01 to 1e5.
     positions : int
-        Number of mesh phases in a period, 4 to 400; `orders_kept` tells how many orders the series
+        Number of mesh phases in a period, 4 to 400; `orders_kept` is how many orders the series
         then have.
     misalignment : Misalignment
     loaded : LoadedSettings

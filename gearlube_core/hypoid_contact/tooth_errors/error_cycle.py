@@ -37,7 +37,7 @@ _FORMAT = 2  # raise with every change of the model that changes results
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToothErrorCycle:
-    """What the errors of single teeth add to the transmission error of a mesh table.
+    """Transmission error that errors of single teeth add to a mesh table.
 
     Parameters
     ----------

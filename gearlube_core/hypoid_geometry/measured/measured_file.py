@@ -67,7 +67,7 @@ class Grid(Section):
 
 
 class _MeasuredMember(Section):
-    """What was measured of one member."""
+    """Measurements of one member."""
 
     pitch_radius_mm: Length | None = Field(
         None,

@@ -306,7 +306,7 @@ def check_nominal_points(
 
 
 def _cause(file: HypoidGearFile, flank: Flank, points: Array) -> str:
-    """Return what explains points that do not lie on a flank."""
+    """Return the likely reason of points that do not lie on a flank."""
     other: Side = "coast" if flank.side == "drive" else "drive"
     mirrored, backwards = points * MIRROR, points * [1.0, -1.0, -1.0]
     hand = "left" if file.pair.pinion_hand == "right" else "right"

@@ -148,7 +148,7 @@ def cycle_dataset(
     lines
         Pressure and film along the line at its steps.
     start
-        Film at rest at the first step, whose error of the grid is told; None: none is.
+        Film at rest at the first step, whose grid error is given; None: no error.
     repeated
         The errors of the time steps come from a second march with longer ones.
     name, source

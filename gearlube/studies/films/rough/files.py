@@ -1,4 +1,4 @@
-"""What a rough march leaves: statistics and work of every step, kept films, files, figures."""
+"""Results of a rough march: statistics and work of every step, kept films, files, figures."""
 
 from __future__ import annotations
 

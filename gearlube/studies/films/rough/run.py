@@ -61,8 +61,8 @@ class _DiskNeed(NamedTuple):
             (self.records, "of records to go on from"),
             (self.others, "of statistics and figures"),
         )
-        told = ", ".join(f"{one / _MEGABYTE:.1f} MB {words}" for one, words in parts)
-        return f"It will take {self.total / _MEGABYTE:.0f} MB on the disk: {told}."
+        listed = ", ".join(f"{one / _MEGABYTE:.1f} MB {words}" for one, words in parts)
+        return f"It will take {self.total / _MEGABYTE:.0f} MB on the disk: {listed}."
 
 
 logger = logging.getLogger("gearlube")
@@ -157,7 +157,7 @@ def run_rough(
         for step in _steps(march, last, gathered, progress):
             _keep(case, folder, step, march.solution, key)
             if folder is not None and (step % case.frames.record_every == 0 or step == last):
-                with _told(folder, step):
+                with _reported(folder, step):
                     march.save(_record_file(folder, key), gathered.packed())
                 recorded = step
     except KeyboardInterrupt:
@@ -171,7 +171,7 @@ def run_rough(
     dataset = _with_attributes(gathered.dataset(), case, key)
     if folder is not None:
         progress(last / (last + 1), "writing files and figures")
-        with _told(folder, march.steps):
+        with _reported(folder, march.steps):
             write_rough_results(dataset, folder)
     progress(1.0, "done")
     return dataset
@@ -238,12 +238,12 @@ def _keep(
     case: RoughCase, folder: Path | None, step: int, solution: FilmSolution, key: str
 ) -> None:
     if folder is not None and step in case.kept_steps():
-        with _told(folder, step):
+        with _reported(folder, step):
             write_frame(folder, step, solution, key)
 
 
 @contextmanager
-def _told(folder: Path, step: int) -> Iterator[None]:
+def _reported(folder: Path, step: int) -> Iterator[None]:
     """Turn a full disk into an error that says what is kept."""
     try:
         yield
@@ -294,7 +294,7 @@ def _with_attributes(dataset: xr.Dataset, case: RoughCase, key: str) -> xr.Datas
 
 
 def disk_need(case: RoughCase, folder: Path) -> _DiskNeed:
-    """Return what the files of a march take.
+    """Return the disk space of the files of a march.
 
     Raises
     ------

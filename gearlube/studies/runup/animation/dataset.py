@@ -251,7 +251,7 @@ def animate_ramp(
     Raises
     ------
     ParameterError
-        The speed is outside the ramp, or none is given and the results do not tell the loudest.
+        The speed is outside the ramp, or none is given and the results have no loudest speed.
     GearLubeError
         The axle refused.
 
@@ -276,8 +276,8 @@ def animate_ramp(
     mesh = settings.car_axle.axle.mesh
     if not mesh.has_tooth_places:
         logger.warning(
-            "The mesh table %s does not tell where on the tooth its pairs meet, so the animation "
-            "shows no tooth. Run `gearlube contact` again for a table that does.",
+            "The mesh table %s lacks the places of contact on the tooth, so the animation "
+            "shows no tooth. Run `gearlube contact` again for a table that has them.",
             mesh.name,
         )
     dataset = animation_dataset(settings, time)

@@ -38,7 +38,7 @@ class PeriodMarch(NamedTuple):
 
 
 class SystemEntries(NamedTuple):
-    """What a `LinearSystem` keeps constant, for the kernels."""
+    """Constants of a `LinearSystem`, for the kernels."""
 
     K: MatrixEntries
     C: Array

@@ -38,7 +38,7 @@ class GivenBody(NamedTuple):
 
 
 class GivenPair(NamedTuple):
-    """What only gear file and line mesh decide."""
+    """Constants that only gear file and line mesh decide."""
 
     plane: ContactPlane
     effective_mass: float  # of the relative rotation along the line of action [kg]
@@ -64,7 +64,7 @@ class GivenOil(NamedTuple):
 
 
 class MarchChoices(NamedTuple):
-    """What a user chooses for any gear file, but for the replaced bearings."""
+    """Choices of a user for any gear file, without the replaced bearings."""
 
     friction_form: float  # see `MarchConstants`
     friction_coefficient: float  # [-]

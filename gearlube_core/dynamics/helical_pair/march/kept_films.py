@@ -1,4 +1,4 @@
-"""What a film model gives at nodes of the mesh phase, kept for the mesh periods to come.
+"""Results of a film model at nodes of the mesh phase, kept for later mesh periods.
 
 Evaluating the model takes ten times as long as the formulas, and in each mesh period the lines meet
 the same places under much the same load and speed. So the model is evaluated at nodes, one for each
@@ -28,7 +28,7 @@ LEAST_SPEED = 1e-2  # rad/s of the pinion, below which nothing is kept
 
 
 class NodeFilm(NamedTuple):
-    """What the model gives at a place: all floats, and fit to be interpolated."""
+    """Result of the model at a place: floats that can be interpolated."""
 
     log_film: float  # of the central film over that of Dowson and Toyoda [-]
     log_friction: float  # of the film's own coefficient [-]
@@ -131,7 +131,7 @@ def _value(kept: Array, at: int, i: int, box: Bin) -> float:
 
 @kernel
 def film_in(kept: Array, at: int, box: Bin, slide: float) -> NodeFilm:
-    """Return what is kept at a place, at the load, speed and oil temperature of `box`.
+    """Return the kept results at a place, at the load, speed and oil temperature of `box`.
 
     `slide` is sliding speed over pinion speed now [m]: friction goes with the power of it that
     it has at the node, which is one in slow sliding. Beyond the pitch line it is that of the node.

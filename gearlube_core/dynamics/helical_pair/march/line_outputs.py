@@ -72,9 +72,9 @@ class BoundSums(NamedTuple):
     outside: float  # load outside the domain of the film model [N]
     film: float  # load times bound of the film [N]
     force: float  # friction [N]
-    doubt: float  # its bound [N]
+    error: float  # its bound [N]
     power: float  # lost in friction [W]
-    power_doubt: float  # its bound [W]
+    power_error: float  # its bound [W]
 
 
 @kernel
@@ -91,15 +91,15 @@ def with_point(sums: BoundSums, load: float, sliding: float, film: BoundedLine) 
         Film and friction there.
     """
     force = film.state.friction_coefficient * load
-    doubt, speed = film.coefficient_bound * load, abs(sliding)
+    error, speed = film.coefficient_bound * load, abs(sliding)
     return BoundSums(
         sums.load + load,
         sums.outside + film.outside * load,
         sums.film + film.film_bound * load,
         sums.force + force,
-        sums.doubt + doubt,
+        sums.error + error,
         sums.power + force * speed,
-        sums.power_doubt + doubt * speed,
+        sums.power_error + error * speed,
     )
 
 
@@ -111,9 +111,9 @@ def with_line(total: BoundSums, line: BoundSums) -> BoundSums:
         total.outside + line.outside,
         total.film + line.film,
         total.force + line.force,
-        total.doubt + line.doubt,
+        total.error + line.error,
         total.power + line.power,
-        total.power_doubt + line.power_doubt,
+        total.power_error + line.power_error,
     )
 
 
@@ -125,7 +125,7 @@ def write_bounds(line: BoundSums, first: int, out: Array) -> None:
     force. A line without load has none. Errors of all points count as if they had one sign.
     """
     out[first] = line.film / line.load if line.load > 0.0 else 0.0
-    out[first + 1] = line.doubt / line.force if line.force > 0.0 else 0.0
+    out[first + 1] = line.error / line.force if line.force > 0.0 else 0.0
 
 
 class LinesFound(NamedTuple):
@@ -254,5 +254,5 @@ def write_lines(
         found.temperature,
         found.pressure,
         sums.outside / sums.load if sums.load > 0.0 else 0.0,
-        sums.power_doubt / sums.power if sums.power > 0.0 else 0.0,
+        sums.power_error / sums.power if sums.power > 0.0 else 0.0,
     )

@@ -82,7 +82,7 @@ def sums_damping(sums: LineSums, closing: float, p: FlankConstants) -> float:
 
 
 class PairForces(NamedTuple):
-    """What a mesh does to both members."""
+    """Forces and moments of a mesh on both members."""
 
     wrench: Wrench  # without damping and the work of moving lines
     heat: float  # of friction [W]

@@ -99,10 +99,10 @@ class HelicalMarchParameters(MarchScalars):
     film : {"formula", "solved"}
         Central film and friction of the oil: "formula", Dowson and Toyoda 1979 with Evans and
         Johnson 1986, or "solved", by a model of solved thermal Eyring films, see
-        `solved_line.solved_line_at`; outside its domain the formulas come in.
+        `solved_line.solved_line_at`; outside its domain formulas are used.
     line_film_model : FilmModel, optional
         Model of solved films of lines; default: the one in the package. `FilmModel.named` reads a
-        file. Where it says nothing of the oil, the formulas come in; `check_oil` tells.
+        file. Where it does not cover the oil, formulas are used; `check_oil` reports it.
     oil : Lubricant
     solid : Solid
         Both flanks.
@@ -185,7 +185,7 @@ class HelicalMarchParameters(MarchScalars):
         return 2.0 * (X - plane.A) / plane.pitch
 
     def given(self) -> GivenPair:
-        """Return what only gear file and line mesh decide."""
+        """Return the constants that only gear file and line mesh decide."""
         plane = self.pair.plane
         height = plane.r_bp + plane.r_bg
         square = plane.x_g**2 + height**2
@@ -212,7 +212,7 @@ class HelicalMarchParameters(MarchScalars):
         return GivenOil(self.oil.parameters(), range_limits(self.ranges))
 
     def choices(self) -> MarchChoices:
-        """Return what may be chosen for any gear file."""
+        """Return the choices that are possible for any gear file."""
         return constants_of(
             MarchChoices,
             self,

@@ -44,7 +44,7 @@ class FilmConstants(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FilmFriction:
-    """What the film-based coefficient of friction depends on besides load and speeds.
+    """Inputs of the film-based coefficient of friction besides load and speeds.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ class FilmFriction:
         ROUGHNESS.check("roughness_rms", self.roughness_rms)
 
     def constants(self) -> FilmConstants:
-        """Return what the kernels take."""
+        """Return the arguments of the kernels."""
         flanks = gear_flanks(self.roughness_rms)
         return FilmConstants(
             self.oil.state(self.oil_temperature),

@@ -225,7 +225,7 @@ class SeparationSystem(NamedTuple):
 def separation_system(
     parameters: HelicalPairParameters, linear: LinearSystem, build_up: float
 ) -> SeparationSystem:
-    """Return what the march takes; `linear` belongs to the same parameters."""
+    """Return the arguments of the march; `linear` belongs to the same parameters."""
     cos_b = linear.plane.cos_b
     return SeparationSystem(
         K=matrix_entries(linear.K),

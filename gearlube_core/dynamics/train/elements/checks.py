@@ -1,4 +1,4 @@
-"""What several elements check of constants that come from a file, see `Kernels.check`."""
+"""Checks by several elements of constants that come from a file, see `Kernels.check`."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ _ROUNDED = 1e-3  # of a mean of numbers written with four digits
 
 
 class _Wheel(NamedTuple):
-    """What tells the gears of a body apart, and the hand."""
+    """Key that separates the gears of a body, and the hand."""
 
     body: str
     teeth: int

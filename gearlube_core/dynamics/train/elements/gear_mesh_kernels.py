@@ -58,7 +58,7 @@ class Member(NamedTuple):
 
 
 class FlankLoad(NamedTuple):
-    """What one flank carries."""
+    """Load of one flank."""
 
     force: float  # [N]
     moment: float  # sum of forces times places along the face [N.m]

@@ -134,12 +134,16 @@ class SpeedHolder(Checked):
     time_constant: Annotated[
         float,
         Number(
-            "s", 1e-4, 1.0, text="With which an imposed speed follows its reference", shown="us"
+            "s",
+            1e-4,
+            1.0,
+            text="Time constant with which an imposed speed follows its reference",
+            shown="us",
         ),
     ] = 1e-3
 
     def numbers(self) -> tuple[float, float, float]:
-        """Return what its kernels take."""
+        """Return the arguments of its kernels."""
         mode = 1.0 + get_args(Hold).index(self.mode)
         return mode, float(self.governor_gain), float(self.time_constant)
 

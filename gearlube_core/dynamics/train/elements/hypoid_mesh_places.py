@@ -64,7 +64,7 @@ def friction_at(at: Any) -> int:
 
 @inside
 def friction_in(at: Any, memory: Array) -> Array:
-    """Return what is kept of friction, shape (N_FRICTION,)."""
+    """Return the kept friction, shape (N_FRICTION,)."""
     return part(memory, friction_at(at), N_FRICTION)
 
 

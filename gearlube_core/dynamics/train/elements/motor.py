@@ -25,7 +25,7 @@ _MOST = 100_000  # points of a table
 
 
 class _Act(NamedTuple):
-    """What acts on the rotor, against the stator."""
+    """Torque and pull on the rotor, against the stator."""
 
     torque: float  # about z, with the ripple [N.m]
     ripple: float  # about z

@@ -61,7 +61,7 @@ _KEPT, _AXES, _FILM = 5, 6, 9
 # places in the memory behind the forces: drag of the present step [N.m], its bound [W], 1 where
 # films of outputs are those that are kept, spring of a search of the rest [N/m], work space of
 # single rollers, of their nodes, the film model
-_DRAG, _DOUBT, _ASKED, _SPRING, _ROLLERS = range(N_FORCES, N_FORCES + 5)
+_DRAG, _BOUND, _ASKED, _SPRING, _ROLLERS = range(N_FORCES, N_FORCES + 5)
 _NODES = _ROLLERS + ROLLERS_MAX
 _MEMORY = _NODES + N_ROLLER_NODES
 _FAR = 1e-4  # m, beyond any clearance, where stiffness hardly depends on the load
@@ -124,7 +124,7 @@ class _OpposedBearings(NamedTuple):
                     self.bearings, m, self.preload, self.law, oil, films, kept
                 )
             drag = drag_near(m, kept)
-        memory[_DRAG], memory[_DOUBT] = drag.torque, drag.bound
+        memory[_DRAG], memory[_BOUND] = drag.torque, drag.bound
         return cost
 
     @kernel
@@ -144,7 +144,7 @@ class _OpposedBearings(NamedTuple):
         ds[cage] = self.bearings.cage_ratio * m.speed
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
-        ds[at[4]] += memory[_DOUBT]
+        ds[at[4]] += memory[_BOUND]
 
     @kernel
     def time_to_jump(

@@ -154,7 +154,7 @@ def _loads(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RingBearing(SeatedBearing):
-    """What ball and cylindrical roller bearings of a train have in common."""
+    """Common base of ball and cylindrical roller bearings of a train."""
 
     pitch_diameter: Annotated[
         float, DIAMETER._replace(text="Diameter of the circle of the elements' centres")

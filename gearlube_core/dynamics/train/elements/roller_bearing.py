@@ -54,7 +54,7 @@ from gearlube_core.oil.lubricant_state import LubricantState
 _KEPT, _FILM = 6, 7
 # places in the memory: drag of the present step [N.m], its bound [W], spring of a search of the
 # rest [N/m], work space of rollers and of their nodes, the film model
-_DRAG, _DOUBT, _SPRING, _ROLLERS = range(4)
+_DRAG, _BOUND, _SPRING, _ROLLERS = range(4)
 _WORK_NODES = _ROLLERS + ROLLERS_MAX
 _MODEL = _WORK_NODES + N_ROLLER_NODES
 _OWN = 4  # outputs before those of `OF_ONE` that are no forces
@@ -63,7 +63,7 @@ _LAWS = tuple(one for one in TORQUE_LOSSES if one not in _LOADED.values())
 
 
 class _Rollers(NamedTuple):
-    """What drags in one bearing alone, with kernels as those of `ShaftBearings`."""
+    """Drag of one bearing alone, with kernels as those of `ShaftBearings`."""
 
     side: float
     bearings: TaperedRollerParameters
@@ -116,7 +116,7 @@ class _RollerBearing(NamedTuple):
 
     @kernel
     def each_step(self, at: Any, memory: Array, s: Array, oil: LubricantState, h: float) -> float:
-        memory[_DRAG] = memory[_DOUBT] = 0.0
+        memory[_DRAG] = memory[_BOUND] = 0.0
         if self.law == 0.0:
             return 0.0
         m, kept, cost = _motion(self, at, s), part(s, at[_KEPT], N_FOLLOWED), 0.0
@@ -130,7 +130,7 @@ class _RollerBearing(NamedTuple):
                 films = RollerFilms(model, nodes, 1.0)
                 cost = 0.5 * DRAG_COST * renew_drag(rollers, m, 0.0, self.law, oil, films, kept)
             drag = drag_near(m, kept)
-        memory[_DRAG], memory[_DOUBT] = drag.torque, drag.bound
+        memory[_DRAG], memory[_BOUND] = drag.torque, drag.bound
         return cost
 
     @kernel
@@ -147,7 +147,7 @@ class _RollerBearing(NamedTuple):
         ds[cage] = ratio * m.speed + s[housing + W]
         ds[damping] += lost
         ds[drag] += memory[_DRAG] * m.speed
-        ds[at[5]] += memory[_DOUBT]
+        ds[at[5]] += memory[_BOUND]
 
     @kernel
     def stored_energy(self, at: Any, memory: Array, s: Array, oil: LubricantState) -> float:

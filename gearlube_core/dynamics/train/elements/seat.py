@@ -65,7 +65,7 @@ def add_to_both(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeatedBearing(Element):
-    """What bearings between a body and a housing have in common."""
+    """Common base of bearings between a body and a housing."""
 
     name: str
     body: str

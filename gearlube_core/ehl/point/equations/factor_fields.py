@@ -66,7 +66,7 @@ def _stresses(
 
 
 class FactorWork(NamedTuple):
-    """What one row of nodes needs for a while; arrays of shape (nx,), and a block of points."""
+    """Scratch memory of one row of nodes; arrays of shape (nx,), and a block of points."""
 
     s: np.ndarray
     r: np.ndarray

@@ -287,7 +287,7 @@ def _face(
     unit: float,
     steep: bool,
 ) -> tuple[float, float, float, float]:
-    """Return what pressure drives through a face, per step of pressure, and its derivatives [-].
+    """Return the flow through a face per step of pressure, and its derivatives [-].
 
     Those by ln(rho h^3) of either node, and by ln(fluidity) of this and of the other one.
     """

@@ -63,7 +63,7 @@ class NewtonianFactors(NoCrossFlow):
         return self._zero
 
     def flow(self, cubic_x: Array, fluidity: Array, log_viscosity: Array) -> FilmFlow:
-        """Return what pressure along x and y drives oil with."""
+        """Return the conductance of pressure-driven flow along x and y."""
         return FilmFlow(cubic_x, fluidity, fluidity, log_viscosity, log_viscosity)
 
     def slopes(self, dense: Array, thickening: Array, rows: Flags | None = None) -> FlowSlopes:
@@ -105,7 +105,7 @@ class AlignedFactors(NoCrossFlow):
         return cubic * self.yy
 
     def flow(self, cubic_x: Array, fluidity: Array, log_viscosity: Array) -> FilmFlow:
-        """Return what pressure along x and y drives oil with."""
+        """Return the conductance of pressure-driven flow along x and y."""
         return FilmFlow(
             cubic_x / self.xx,
             fluidity * self.xx,

@@ -23,7 +23,7 @@ from gearlube_core.kernels.jit import kernel
 # coefficients of a node and its neighbours, in this order
 CENTRE, WEST, EAST, FAR_WEST, SOUTH, NORTH, FAR_SOUTH = range(7)
 NEIGHBOURS = 7
-# and of those whose pressure tells how a film shears at the nodes beside
+# and of those whose pressure decides how a film shears at the nodes beside
 SOUTH_WEST, SOUTH_EAST, NORTH_WEST, NORTH_EAST, FAR_EAST, FAR_NORTH = range(7, 13)
 SHEARED_NEIGHBOURS = 13
 # steps to them along y and along x
@@ -86,7 +86,7 @@ class MeshMetric(NamedTuple):
 
 
 class FilmFlow(NamedTuple):
-    """What pressure drives oil with at every node; arrays of shape (ny, nx) [-]."""
+    """Conductance of pressure-driven flow at every node; arrays of shape (ny, nx) [-]."""
 
     cubic: np.ndarray  # rho h^3
     fluidity_x: np.ndarray  # 1/eta times the flow factor along x
@@ -178,7 +178,7 @@ class FlowTensor(NamedTuple):
 
 
 class CarriedMass(NamedTuple):
-    """What surfaces carry at every node; arrays of shape (ny, nx) [-]."""
+    """Oil that the surfaces carry at every node; arrays of shape (ny, nx) [-]."""
 
     density: np.ndarray  # rho
     density_slope: np.ndarray  # d rho/dp

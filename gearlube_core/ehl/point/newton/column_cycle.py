@@ -29,7 +29,7 @@ SPARE = 2 * _RING + 1  # columns of scratch memory of a part
 
 
 class ColumnGrid(NamedTuple):
-    """What one grid has for the cycle; arrays of shape (nx, rows) unless stated."""
+    """Work arrays of one multigrid level, of shape (nx, rows) unless stated."""
 
     offsets: np.ndarray  # int, (n, 2), steps along y and x
     by_pressure: np.ndarray  # (nx, n, rows)

@@ -148,7 +148,7 @@ def coarsen_column(
 def coarsen_across(links: Links, fine: np.ndarray, used: np.ndarray, coarse: np.ndarray) -> None:
     """Write the stencils of a grid with fewer rows, shapes (25, nx, rows).
 
-    `used`, shape (25,), tells which neighbours the fine stencils have.
+    `used`, shape (25,), marks the neighbours that the fine stencils have.
     """
     rows = coarse.shape[2]
     coarse[:] = np.float32(0.0)

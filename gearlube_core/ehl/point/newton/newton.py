@@ -116,7 +116,7 @@ def flexible_gmres(
 
 @dataclass(slots=True)
 class NewtonRecord:
-    """What an iteration did."""
+    """Residual and step length of one Newton iteration."""
 
     converged: bool = False
     residuals: list[float] = field(default_factory=list)

@@ -49,7 +49,7 @@ class SingleOperator:
         self._by_approach: Any = operator.by_approach.astype(Single)
 
     def rest(self, right: Any, pressure: Any, film: Any, approach: float) -> Any:
-        """Return what is left of a right-hand side, shape (ny, nx)."""
+        """Return the residual of a right-hand side, shape (ny, nx)."""
         if self.stencil is None:
             return (right - self._operator.apply(pressure, film, approach)).astype(Single)
         rest = self.stencil.rest(right, pressure, film, self._grid.workers)

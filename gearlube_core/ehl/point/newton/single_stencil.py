@@ -218,7 +218,7 @@ class SingleStencil:
     def rest(
         self, right: np.ndarray, pressure: np.ndarray, film: np.ndarray, workers: RowWorkers = ALONE
     ) -> np.ndarray:
-        """Return what is left of a right-hand side under changes of pressure and film, (ny, nx)."""
+        """Return the residual of a right-hand side under changes of pressure and film, (ny, nx)."""
         right, pressure, film = (
             np.ascontiguousarray(one, dtype=Single) for one in (right, pressure, film)
         )

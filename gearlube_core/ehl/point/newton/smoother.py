@@ -143,7 +143,7 @@ def solve_bands(
 
 
 class Equations(NamedTuple):
-    """What `fill_rows` takes."""
+    """Arguments of `fill_rows`."""
 
     start: np.ndarray
     column: np.ndarray

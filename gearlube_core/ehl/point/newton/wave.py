@@ -50,7 +50,7 @@ class TransposedGrid:
 def unresolved_wave(grid: PointGrid | TransposedGrid, halved: tuple[bool, bool]) -> float:
     """Return the number k of the longest waves across the rows that a coarser grid lacks [-].
 
-    `halved` tells whether that has fewer rows, and fewer columns.
+    `halved` is whether that has fewer rows, and fewer columns.
     """
     return max(
         0.55 * np.pi / grid.dy if halved[0] else 0.0,

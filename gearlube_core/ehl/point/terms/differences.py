@@ -37,7 +37,7 @@ class NoStorage:
         return self.source
 
     def released(self, mass: Array) -> Array:
-        """Return what nodes release of what they held, (ny, nx) [-]: nothing."""
+        """Return the oil that nodes release, (ny, nx) [-]: zero."""
         return self.source
 
     def add_derivatives(
@@ -46,7 +46,7 @@ class NoStorage:
         """Leave the derivatives as they are."""
 
     def inflow(self, state: FilmState) -> Array:
-        """Return what flows into every node, (ny, nx) [-]."""
+        """Return the flow into every node, (ny, nx) [-]."""
         return state.residual
 
 
@@ -66,7 +66,7 @@ class Storage:
         )
 
     def released(self, mass: Array) -> Array:
-        """Return what nodes release of what they held, less what they store, (ny, nx) [-].
+        """Return the oil that nodes release less the oil that they store, (ny, nx) [-].
 
         Parameters
         ----------
@@ -96,7 +96,7 @@ class Storage:
         by_film -= stored * state.density
 
     def inflow(self, state: FilmState) -> Array:
-        """Return what flows into every node, (ny, nx) [-]."""
+        """Return the flow into every node, (ny, nx) [-]."""
         return np.asarray(state.residual - self.released(state.mass))
 
 

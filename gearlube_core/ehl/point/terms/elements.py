@@ -27,7 +27,7 @@ from gearlube_core.kernels.jit import kernel
 # a node and its eight neighbours: row by row from south-west to north-east
 ELEMENT_NEIGHBOURS = 9
 ELEMENT_CENTRE = 4
-# and those whose pressure tells how a film shears at these
+# and those whose pressure decides how a film shears at these
 SHEARED_ELEMENT_NEIGHBOURS = 21
 _FAR = [(down, right) for down in (-2, 2) for right in (-1, 0, 1)]
 # steps to them along y and along x

@@ -171,7 +171,7 @@ class OpenBorder(AmbientBorder):
 
 @dataclass(frozen=True, slots=True)
 class FilmTerms:
-    """What acts in the film of one grid; `replace` gives another set.
+    """Terms that act in the film of one grid; `replace` gives another set.
 
     Every term has a null object that does no work: `UniformEntrainment`, `NoStorage`,
     `NewtonianShear`, `NoSolids`, `AmbientBorder`, `ReynoldsCavitation`.

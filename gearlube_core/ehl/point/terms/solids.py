@@ -67,7 +67,7 @@ class NoContact:
         return nodes
 
     def unbalanced(self, residual: Array, grid: PointGrid) -> float:
-        """Return what is left of the equations of solids, as a flow [-]."""
+        """Return the residual of the equations of solids, as a flow [-]."""
         return 0.0
 
     def add_derivatives(self, linear: Linearisation, residual: Array) -> None:
@@ -76,7 +76,7 @@ class NoContact:
 
 @dataclass(frozen=True, slots=True)
 class ContactPressure:
-    """What touching solids take of the pressure on one grid; arrays of shape (ny, nx) [-]."""
+    """Pressure that touching solids carry on one grid; arrays of shape (ny, nx) [-]."""
 
     pressure: Array  # of the solids
     slope: Array  # by the film
@@ -101,11 +101,11 @@ class ContactPressure:
         return nodes & (self.pressure <= 0.0)
 
     def unbalanced(self, residual: Array, grid: PointGrid) -> float:
-        """Return what is left of the equations of solids, as a flow [-]."""
+        """Return the residual of the equations of solids, as a flow [-]."""
         return grid.integral(self.unbalanced_flows(residual))
 
     def unbalanced_flows(self, residual: Array) -> Array:
-        """Return what is left of the equations of the nodes, as flows, (ny, nx) [-].
+        """Return the residual of the equations of the nodes, as flows, (ny, nx) [-].
 
         Flow that gathers counts at drained nodes, too: else a step that ends their draining would
         look like one that unbalances them.
@@ -152,7 +152,7 @@ class NoSolids:
     """The oil carries the whole load."""
 
     def share(self, pressure: Array, film: Array, flow_rate: float) -> NoContact:
-        """Return what solids take of a pressure: nothing."""
+        """Return the part of a pressure that solids carry: zero."""
         return NoContact(pressure)
 
     def own_slope(self, linear: Linearisation, nodes: Flags, grid: PointGrid) -> Array:
@@ -167,7 +167,7 @@ class TouchingSolids:
     layer: SolidLayer  # in units of the grid
 
     def share(self, pressure: Array, film: Array, flow_rate: float) -> NoContact | ContactPressure:
-        """Return what solids take of a pressure.
+        """Return the part of a pressure that solids carry.
 
         Parameters
         ----------

@@ -13,7 +13,7 @@ from gearlube_core.ehl.point.terms.solids import Contact
 
 
 class Balance(NamedTuple):
-    """What the terms of one balance of oil have to know of each other."""
+    """Data that the terms of one balance of oil share."""
 
     stencil: StencilParameters
     rows: Array  # entrainment of every row over that of the problem, (ny,) [-]
@@ -55,7 +55,7 @@ class FilmState:
 
     @property
     def film_flow(self) -> FilmFlow:
-        """Return what pressure drives oil with along x and y."""
+        """Return the conductance of pressure-driven flow along x and y."""
         return self.shear.flow(self.cubic_x, self.fluidity, self.log_viscosity)
 
     @property

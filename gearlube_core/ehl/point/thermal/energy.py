@@ -26,7 +26,7 @@ from gearlube_core.oil.sheared_film import stress_share
 
 
 class PointFilm(NamedTuple):
-    """What the energy balance takes from a film, on n nodes in rows of nx."""
+    """Film data for the energy balance, on n nodes in rows of nx."""
 
     along: FilmFields  # slope of pressure along sliding; no mean speed
     across: np.ndarray  # slope of pressure across sliding [Pa/m]

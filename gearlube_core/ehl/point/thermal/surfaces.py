@@ -254,7 +254,7 @@ class FilmTemperature:
         self._conductance, self._shape = np.empty((3, n)), np.empty((2, n, heights))
 
     def film(self, state: FilmState) -> PointFilm:
-        """Return what the balance takes from a state."""
+        """Return the inputs of the balance from a state."""
         scales, oil = self.level.scales, self.oil
         p = state.oil * scales.pressure
         h = np.maximum(state.film * scales.film, 1e-12)
@@ -295,7 +295,7 @@ class FilmTemperature:
         return np.array([body(q.reshape(shape)).ravel() for body, q in pairs])
 
     def _surface_error(self) -> Array:
-        """Return what the surfaces' heat makes of them less their temperature, (2, n) [K]."""
+        """Return surface temperatures by heat less the present ones, (2, n) [K]."""
         return np.asarray(self._rise(self.flux) + self.motion.temperature - self.T[:, [0, -1]].T)
 
     def turn(self, film: PointFilm) -> None:

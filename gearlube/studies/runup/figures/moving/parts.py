@@ -70,15 +70,15 @@ def _ring(
     width = pictures.WIDTH * 360.0 / ring.angle.size
     theta = _small(np.degrees(ring.angle))
     marker: dict[str, Any] = {"color": "#0072B2", "line": {"color": "#606060", "width": 0.5}}
-    told = "%{customdata[0]:.0f} N"
+    listed = "%{customdata[0]:.0f} N"
     if ends is not None:
         marker |= {"color": _small(np.nan_to_num(ring.film, nan=ends[0])), "colorscale": _COLOURS,
                    "cmin": ends[0], "cmax": ends[1]}  # fmt: skip
-        told += ", film %{customdata[1]:.3f} µm"
+        listed += ", film %{customdata[1]:.3f} µm"
     bars = go.Barpolar(
         r=_small(ring.load), theta=theta, base=hub, width=width, marker=marker,
         customdata=_small(np.stack([ring.load, ring.film], 1)),
-        hovertemplate=f"{told}<extra></extra>",
+        hovertemplate=f"{listed}<extra></extra>",
     )  # fmt: skip
     first = np.arange(ring.angle.size) == 0
     cage = go.Scatterpolar(

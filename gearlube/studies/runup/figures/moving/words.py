@@ -1,4 +1,4 @@
-"""What an animation says: its instant, and the smallest and largest value of each quantity."""
+"""Labels of an animation: its instant, and the smallest and largest value of each quantity."""
 
 from __future__ import annotations
 
@@ -96,6 +96,6 @@ def roller_sentence(dataset: xr.Dataset) -> str:
     if len(set(zones.values())) == 1:
         where = f"Loaded zone of all bearings: {zones[1]}"
     else:
-        told = ", ".join(f"{ring}: {zone}" for ring, zone in zones.items())
-        where = f"Loaded zone of bearing {told}"
+        listed = ", ".join(f"{ring}: {zone}" for ring, zone in zones.items())
+        where = f"Loaded zone of bearing {listed}"
     return f"{'; '.join(words)}. {where}."

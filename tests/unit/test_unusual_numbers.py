@@ -49,14 +49,14 @@ def test_every_number_with_a_unit_has_a_usual_range_within_its_limits(kind):
         assert note.usual is not None, name
         low, high = note.usual
         assert low < high
-        assert not note.doubt(low), name
-        assert not note.doubt(math.sqrt(low * high) if low > 0.0 else high), name
-        assert "is usual" in note.doubt(high + 0.01 * abs(high)), name
+        assert not note.warning(low), name
+        assert not note.warning(math.sqrt(low * high) if low > 0.0 else high), name
+        assert "is usual" in note.warning(high + 0.01 * abs(high)), name
 
 
 @each("kind", [kind for kind in KINDS if kind is not MeasuredFile])
 def test_no_shipped_file_is_doubtful(kind):
-    found = {name: kind.named(name).doubts() for name in kind.shipped()}
+    found = {name: kind.named(name).unusual_numbers() for name in kind.shipped()}
     assert found == {name: {} for name in kind.shipped()}
 
 
@@ -92,7 +92,7 @@ def test_a_number_that_smells_of_another_unit_is_asked_about(
     path.write_text(toml_text(data))
     with caplog.at_level(logging.WARNING):
         file = kind.from_toml(path)
-    assert list(file.doubts()) == [field]
+    assert list(file.unusual_numbers()) == [field]
     assert f"{path}: {field} = " in caplog.text
     assert question in caplog.text
 
@@ -109,7 +109,7 @@ def test_a_question_stands_in_the_notes_of_an_axle_and_0_is_no_question():
     notes = {note.field: note.why for note in file.car_axle().inputs}
     assert "Is it in kN?" in notes["pinion.bearing.preload_n"]
     none = AxleFile.from_data({**AXLE, "pinion": {"bearing": {"preload_n": 0.0}}}, "x")
-    assert none.doubts() == {}
+    assert none.unusual_numbers() == {}
 
 
 NAMED = [(kind, field) for kind in KINDS for field in kind.files]
@@ -263,4 +263,4 @@ def test_bounds_of_a_problem_and_values_of_a_variation_are_asked_about(caplog):
     assert "Is it in mm? 0.02 mm is 20 um." in caplog.text
     key = file_keys(field_notes(BearingFile))["bearing.contact_angle_deg"]
     assert key.note is not None
-    assert "Is it in rad? 0.26 rad is 14.8969 deg." in key.note.doubt((15.0, 0.26))
+    assert "Is it in rad? 0.26 rad is 14.8969 deg." in key.note.warning((15.0, 0.26))
