@@ -45,6 +45,7 @@ def stiff_bearings(parameters, factor):
     return replace(parameters, bearing=bearing)
 
 
+@pytest.mark.slow
 def test_axle_on_rigid_bearings_is_the_two_dof_pair():
     """I_p w_p' = T_p - (R_p - e') F - k' f^2/2, I_g w_g' = -T_g + R_g F, by DOP853 from here."""
     speed, pinion_torque, wheel_torque = operating_point(60, efficiency=0.99)

@@ -20,6 +20,7 @@ def interpreted():
     return report_of("axle_on_springs", **INTERPRETED)
 
 
+@pytest.mark.slow
 def test_shafts_move_along_the_mesh_normal_by_force_over_stiffness():
     """At rest m u'' = 0 = -n F - k u on the pinion, +n F - k u on the gear, with F = T/R_p."""
     moved = NORMAL * TORQUE / R_P / STIFFNESS
@@ -29,6 +30,7 @@ def test_shafts_move_along_the_mesh_normal_by_force_over_stiffness():
     assert along_axes(outputs, "wheel.displacement") == pytest.approx(moved, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_modes_are_those_of_two_masses_on_springs_and_a_mesh_spring():
     """Across the normal each member swings alone; along it four coordinates share the mesh."""
     size = np.linalg.norm(NORMAL)
@@ -67,6 +69,7 @@ def test_viscous_drag_takes_its_power_by_every_law_of_drag():
         assert quantity(outputs, "bearing.power_loss") == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_one_file_makes_the_type_known_to_axle_file_error_bars_and_fmu():
     found = report_of("axle_on_springs", "report_names", **INTERPRETED)
     assert "pinion.bearing.type must be a text, tapered_roller, got 'springs'" in found["before"]

@@ -164,6 +164,7 @@ def everything(given: HypoidAxleParameters) -> Array:
     return np.concatenate([made.numbers, made.memory, made.plan, [train.steps_per_highest_period]])
 
 
+@pytest.mark.slow
 def test_every_option_of_the_axle_is_honoured_or_refused():
     assert list(OPTIONS) == [one.name for one in fields(HypoidAxleParameters)]
     for name, (value, others) in OPTIONS.items():

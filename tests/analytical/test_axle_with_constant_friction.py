@@ -27,6 +27,7 @@ def value(outputs, name):
     return outputs[OUTPUT_INDEX[name]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [0, 1])
 def test_loaded_flanks_have_the_coefficient_and_the_oil_temperature(case):
     outputs = interpreted()[case]["moving"]
@@ -38,6 +39,7 @@ def test_loaded_flanks_have_the_coefficient_and_the_oil_temperature(case):
         assert value(outputs, f"flank[{i}].temperature") == OIL
 
 
+@pytest.mark.slow
 def test_lost_power_goes_with_the_coefficient_in_one_state():
     """P = sum mu F |dU|: the state at rest is found without friction."""
     one, two = (case["at rest"] for case in interpreted())
@@ -78,6 +80,7 @@ def test_compiled_axle_equals_the_interpreted_one(tmp_path):
             assert a == pytest.approx(b, rel=1e-9, abs=1e-9), name
 
 
+@pytest.mark.slow
 def test_one_file_makes_the_law_known_to_axle_file_error_bars_and_fmu():
     found = report_of("constant_friction", "report_names", **INTERPRETED)
     assert "got 'coulomb'" in found["before"]  # neither imported nor installed

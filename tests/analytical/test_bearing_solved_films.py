@@ -17,6 +17,7 @@ from tests.helpers.bearing_32216 import BEARING, F_A, RPM, loss_at
 OIL = Lubricant.named("fva_3")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rpm", [500, 2000])
 def test_torque_of_the_raceways_is_that_of_films_solved_for_them(rpm):
     p, model = BEARING.parameters(), FilmModel.named(ROLLER_MODEL)

@@ -47,6 +47,7 @@ def test_start_at_the_static_deflection_is_an_equilibrium_of_the_undamped_rotor(
     assert history.roller_load[0].max() == pytest.approx(5e8 * (10e-6 + x) ** (10 / 9), rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("film", ["off", "steady"])
 def test_energy_is_conserved_without_hysteresis(film):
     """Kinetic + elastic - load work + work on the cage; all rollers loaded."""

@@ -61,6 +61,7 @@ def chosen_for(**relief):
     return chosen.chosen_relief(designed, start_pair(designed))
 
 
+@pytest.mark.slow
 def test_relief_rises_with_the_torque_until_no_edge_carries(soft):
     # conjugate flanks stand off nowhere: they close to the edges at once
     low, high = (chosen_for(torque_n_m=torque) for torque in (100.0, 400.0))
@@ -87,6 +88,7 @@ def test_given_relief_stays_and_is_looked_at_where_a_torque_is_given(soft):
     assert "At 400 N.m edges of the drive flanks carry: " in " ".join(found.warnings())
 
 
+@pytest.mark.slow
 def test_relief_rises_no_further_than_a_gear_file_takes_and_stays_away_where_it_has_no_extent(soft):
     # a tenth of the height: 0.59 mm, of which a gear file takes 59 um
     found = chosen_for(torque_n_m=900.0, tip_relief_share=0.1, end_relief_share=0.0)

@@ -36,7 +36,7 @@ def in_train(fields):
     springs = {"K_xx": 2e8, "K_yy": 2e8, "K_zz": 1e8, "K_ax": 2e5, "K_ay": 2e5}
     parts = [mesh, Port(name="load", body="wheel")]
     parts += [SpringSupport(name=f"{one} bearing", body=one, **springs) for one in mesh_bodies()]
-    train = Train(bodies, parts, OIL, driver="generated")
+    train = Train(bodies, parts, OIL)
     train.initialise({"pinion": 0.0}, {"load": 100.0}, KELVIN)
     return train
 
@@ -80,6 +80,7 @@ def fields_of(slope=0.0, torque=300.0, **more):
     return contact_fields(HE_2007, mesh, torque, drives_forward=False, **more)
 
 
+@pytest.mark.slow
 @each("level", (0, 1))
 def test_transmission_error_and_stiffness_under_load_are_those_of_the_contact_analysis(level):
     """At the closing that the analysis finds at each phase, the mesh carries its torque."""
@@ -108,6 +109,7 @@ def thirds(cycle, n, level):
     return found / found.mean()
 
 
+@pytest.mark.slow
 @each("sign, level", ((1.0, 0), (1.0, 1), (-1.0, 1)))
 def test_a_tilt_moves_the_load_as_in_the_contact_analysis_with_this_misalignment(sign, level):
     tilt = -sign * SLOPE * math.cos(HE_2007.base_helix_angle) / HE_2007.face_width

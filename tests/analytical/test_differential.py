@@ -50,7 +50,7 @@ def axle(locked: bool = False, **given: float) -> Train:
             name="right shaft", first="right side", second="right", stiffness=7e3, damping=2.0
         ),
     ]
-    return Train(bodies, elements, OIL, driver="generated")
+    return Train(bodies, elements, OIL)
 
 
 def balance(train: Train, torques: dict[str, float], steps: int = 400) -> float:
@@ -116,7 +116,7 @@ def test_light_sides_ask_for_steps_that_friction_can_take():
     """Between sides of 0.001 kg m2 friction damps at 1e6 per second: it still comes to rest."""
     train = axle(preload=200.0, slip_speed=0.1)
     light = [Body.spinning(one.name, 1e-3) if "side" in one.name else one for one in train.bodies]
-    train = Train(light, train.elements, OIL, driver="generated")
+    train = Train(light, train.elements, OIL)
     torques = {**DRIVE, "left road": -140.0, "right road": -160.0}
     train.initialise({"left": 30.0, "right": 30.0}, torques, KELVIN)
     assert balance(train, torques, 30) < 1e-6
@@ -132,7 +132,7 @@ def spline(backlash: float, damping: float = 0.0) -> Train:
         backlash=backlash,
     )  # fmt: skip
     elements = [Port(name="motor", body="engine"), Port(name="brake", body="load"), shaft]
-    return Train(rotors, elements, OIL, driver="generated", steps_per_highest_period=128)
+    return Train(rotors, elements, OIL, steps_per_highest_period=128)
 
 
 @pytest.mark.parametrize(("torque", "twist"), [(30.0, 3e-3), (-30.0, -3e-3 - 0.02)])

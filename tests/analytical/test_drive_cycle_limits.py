@@ -60,6 +60,7 @@ def carried(speed, temperature):
 
 
 # 1 %: the map is linear between its points, see the test of a finer grid
+@pytest.mark.slow
 @pytest.mark.parametrize("kmh", [20.0, 50.0, 90.0])
 def test_a_cruise_loses_its_power_times_its_time(kmh):
     found = gl.run_cycle(settings(cruise(kmh / 3.6)))
@@ -77,6 +78,7 @@ def two_speeds(fast, slow):
 
 
 # 0.2 %: the map is linear between speeds, which are 1.36 times apart; measured below 0.05 %
+@pytest.mark.slow
 @pytest.mark.parametrize("slow", [3.0, 7.0, 13.0])
 def test_a_slow_part_of_a_fast_trace_loses_what_the_axle_loses_at_its_own_speed(slow):
     found = gl.run_cycle(settings(two_speeds(30.0, slow)))
@@ -117,6 +119,7 @@ def test_the_band_of_assumed_heat_ends_at_the_ends_of_capacity_and_conductance()
             assert found[f"oil_temperature_{end}"].values == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_share_outside_a_range_is_that_of_the_steps_beyond_it():
     """At 23 degC L is above its range at 30 m/s and within it at 7 m/s, by direct computation."""
     cold = gl.celsius_to_kelvin(23.0)
@@ -300,6 +303,7 @@ def test_the_loss_between_temperatures_of_the_map_is_found():
     assert found.temperature[-1] == pytest.approx(other.y[0, -1], abs=0.02)
 
 
+@pytest.mark.slow
 def test_steady_temperature_is_where_a_long_cruise_comes_to_rest():
     """Capacity of a tenth: 25 time constants in 3000 s."""
     speed = 25.0
@@ -332,6 +336,7 @@ def test_oil_beyond_its_data_is_refused_with_the_time():
         gl.run_cycle(settings(cruise(30.0), heat=heat))
 
 
+@pytest.mark.slow
 def test_energy_hardly_changes_with_a_finer_map(nedc):
     assert abs(grid_change(settings(gl.studies.DriveCycle.named("nedc")), nedc)) < 0.01
 
@@ -347,6 +352,7 @@ CHURNING = replace(
 )
 
 
+@pytest.mark.slow
 def test_the_regime_of_churning_is_that_of_speed_and_oil():
     """Half way where w R b/nu is the geometric mean of 6000 and 9000; at rest the slow one."""
     oil, ring = CAR.axle.oil, CAR.axle.kernel_parameters().churning

@@ -216,6 +216,7 @@ def test_the_engine_orders_reach_the_axle_at_a_plausible_size() -> None:
     assert np.argmax(spectrum) / (len(rows) * STEP) == pytest.approx(firing, abs=2.0)  # one bin
 
 
+@pytest.mark.slow
 def test_the_driveline_starts_in_its_periodic_state() -> None:
     speed = 80 / 3.6
     driver = CoupledVehicle(CAR, speed)

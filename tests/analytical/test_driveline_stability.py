@@ -86,6 +86,7 @@ def test_a_stable_exchange_follows_the_linear_map(axle: TorsionalAxle) -> None:
     assert np.max(np.abs(found - expected)) < 2e-6 * kick + 1e-9
 
 
+@pytest.mark.slow
 def test_the_default_step_leaves_a_margin() -> None:
     line = Driveline(SMOOTH, 60.0 / 3.6)
     # Documented beside COMMUNICATION_STEP: 1.06 ms and 0.23 ms.

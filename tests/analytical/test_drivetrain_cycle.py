@@ -61,6 +61,7 @@ def drag(speed: float) -> float:
     return force if speed > 0.0 else 0.0
 
 
+@pytest.mark.slow
 def test_a_seal_loses_its_torque_times_the_angle_that_its_shaft_turns(driven):
     found = driven[1]
     lost = found["energy_lost"].sel(source="seal.seals").item()
@@ -74,6 +75,7 @@ def test_a_seal_loses_its_torque_times_the_angle_that_its_shaft_turns(driven):
     assert braking / lost == pytest.approx(0.5 * RAMP / (RAMP + HOLD), rel=2e-3)
 
 
+@pytest.mark.slow
 def test_the_shaft_gives_what_road_and_seal_take_and_gets_the_rest_of_the_motion_back(driven):
     found = driven[1]
     # the sum over seconds of a cubic: 1/4 s2 of the second derivative, below 1e-3 here
@@ -190,6 +192,7 @@ def test_friction_brakes_take_what_the_train_does_not(driven):
     )
 
 
+@pytest.mark.slow
 def test_the_hypoid_axle_as_a_list_loses_what_its_own_study_says():
     """Another code: one mesh period without dynamics, at every temperature of a map."""
     corners = [0.0, 8.0, 14.0, 26.0, 34.0]

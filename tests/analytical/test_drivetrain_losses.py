@@ -31,6 +31,7 @@ def test_a_seal_loses_its_torque_times_the_speed_at_all_points():
     assert "50 N·m" in best
 
 
+@pytest.mark.slow
 def test_a_slow_train_loses_at_the_speed_that_the_map_says():
     """Its loads do not balance over a mesh cycle: it drifts, but a seal knows the speed alone."""
     speeds, torques = np.array([3.2, 18.0]) * math.pi / 30.0, np.array([-170.0, 100.0, 160.0])

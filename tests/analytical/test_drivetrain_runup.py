@@ -74,6 +74,7 @@ def test_the_load_is_what_the_seal_leaves_of_the_torque_at_any_speed():
         assert lost_power(there.train) == pytest.approx(SEAL * speed, rel=3e-4)
 
 
+@pytest.mark.slow
 def test_the_shaft_follows_its_ramp(runup: Path):
     with xr.open_dataset(runup / FILE) as found:
         wanted = SLOW + (FAST - SLOW) * found["time"].values / DURATION
@@ -81,6 +82,7 @@ def test_the_shaft_follows_its_ramp(runup: Path):
         np.testing.assert_allclose(found["pinion_speed"].values, wanted, rtol=5e-3)
 
 
+@pytest.mark.slow
 def test_orders_of_the_run_up_are_those_by_frequency(runup: Path):
     """The rotor takes its inertia's torque from the mesh; 1 % waves err by their square.
 
@@ -103,6 +105,7 @@ def test_sound_reads_the_forces_of_a_run_up(runup: Path):
     assert record.speed[-1] == pytest.approx(FAST, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_the_nodes_of_a_housing_move_in_a_run_up_as_by_frequency():
     """Its velocity is the mean square of all nodes; a line between two bins lacks up to 15 %."""
     plain = case()

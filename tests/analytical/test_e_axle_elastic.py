@@ -55,6 +55,7 @@ def test_misalignment_of_the_second_mesh_is_that_of_the_other_model():
     np.testing.assert_allclose(tilts, [185.474e-6, -313.539e-6], atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("limit", "error"), [(1e4, 2e-3), (3e4, 1e-4)])
 def test_few_modes_are_enough_below_five_kilohertz(limit: float, error: float):
     """The countershaft is short: all that it bends is flexibility above the first limit.

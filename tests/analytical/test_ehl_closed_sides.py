@@ -62,6 +62,7 @@ def line(part, nodes, gap=None, **settings):
     return solve_line(problem, LineSettings(nodes=nodes, **settings))
 
 
+@pytest.mark.slow
 def test_smooth_section_is_the_line_contact():
     # 801 columns: both solvers differ by second order in the spacing at the spike
     part = section((801, 16), length=2e-3)
@@ -79,6 +80,7 @@ def test_smooth_section_is_the_line_contact():
     assert "cuts the contact" not in film.outcome.sentence
 
 
+@pytest.mark.slow
 def test_friction_of_a_section_counts_every_row():
     part = section((201, 16))
     film, reference = solve_point_contact(part, QUICK), line(part, 201)
@@ -97,6 +99,7 @@ def wavy(part, across=2, amplitude=0.1e-6, phase=0.0):
     return replace(part, gap=gap)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sides", ["cyclic", "no_flow"])
 def test_film_of_shifted_solids_is_shifted_where_the_sides_are_cyclic(sides):
     # k rows are a phase of 2 pi k/8: where oil passes the sides no row is special
@@ -134,6 +137,7 @@ def test_what_enters_the_columns_leaves_them(sides):
     assert np.abs(flow[falling] / flow[falling[0]] - 1.0).max() > 1e-4
 
 
+@pytest.mark.slow
 def test_closed_sides_are_mirrors_where_the_solids_are_symmetric_about_them():
     # cos(k y) is even about y = 0 and y = L: no oil would pass there anyway
     k = 2.0 * np.pi / L
@@ -162,6 +166,7 @@ def test_two_periods_hold_the_film_of_one_twice():
     assert two.load == pytest.approx(2.0 * one.load)
 
 
+@pytest.mark.slow
 def test_elements_find_the_film_of_differences_between_cyclic_sides():
     film = solve_point_contact(wavy(section((257, 16))), QUICK)
     other = solve_point_contact(wavy(section((257, 16))), replace(QUICK, discretisation="elements"))
@@ -195,6 +200,7 @@ def straight_wave(x, time, amplitude=0.1e-6, wavelength=0.2e-3):
     return amplitude * grown * np.cos(2.0 * np.pi * (x - FAST * time) / wavelength)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("discretisation", "nodes", "steps", "closest", "thinnest"),
     [
@@ -232,6 +238,7 @@ def test_straight_waves_in_time_are_the_line_in_time(
 
 
 # films of elements in time between these sides are in the default run with straight waves
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "discretisation", ["differences", pytest.param("elements", marks=pytest.mark.slow)]
 )
@@ -280,6 +287,7 @@ def test_elements_in_time_refuse_what_they_have_not():
         FilmMarch(long, 1e-7, settings=elements)
 
 
+@pytest.mark.slow
 def test_march_between_cyclic_sides_resumes_bit_for_bit(tmp_path):
     part = section((65, 16))
     k = 2.0 * np.pi / L

@@ -66,6 +66,7 @@ def test_the_film_of_a_sphere_breaks_where_pressure_and_its_slope_vanish() -> No
     assert found == pytest.approx(expected, abs=2e-3 * expected.max())
 
 
+@pytest.mark.slow
 def test_load_beyond_is_the_integral_of_the_pressure() -> None:
     far = _far_field(0.01, 0.04, (1.0, 0.4))
     (x0, x1), (y0, y1) = LIMITS
@@ -86,6 +87,7 @@ def test_load_beyond_is_the_integral_of_the_pressure() -> None:
     assert slope == pytest.approx((near[1] - near[0]) / 2e-9, rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [1.0, 4.0])
 def test_rigid_solids_have_the_film_of_brewe_hamrock_and_taylor(ratio: float) -> None:
     R, load, speed = 0.01, 1.0, 1.0
@@ -121,6 +123,7 @@ def _widened(problem: PointContactProblem, factor: float) -> PointContactProblem
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("M", "L", "ratio", "angle"),
     [
@@ -143,6 +146,7 @@ def test_central_film_does_not_hang_on_the_default_domain(
     assert "cuts" not in wide.outcome.sentence
 
 
+@pytest.mark.slow
 def test_a_flattened_contact_tells_what_its_domain_costs_and_the_default_costs_little() -> None:
     problem = moes_contact(100.0, 10.0, nodes=(33, 33))
     default = solve_point_contact(problem)
@@ -177,6 +181,7 @@ def test_oil_goes_on_beyond_elements_as_well() -> None:
     assert elements.outcome.beyond == pytest.approx(volumes.outcome.beyond, rel=0.02)
 
 
+@pytest.mark.slow
 def test_border_through_the_contact_says_so_with_oil_beyond() -> None:
     problem = moes_contact(3.0, 5.0, nodes=(49, 49))
     assert "cuts" not in solve_point_contact(problem, QUICK).outcome.sentence

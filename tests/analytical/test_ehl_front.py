@@ -52,6 +52,7 @@ def test_band_is_the_string_over_an_obstacle():
     assert np.flatnonzero(change[1] > 0.0)[-1] == pytest.approx(2.0 * a / dx, abs=3)
 
 
+@pytest.mark.slow
 def test_front_leaves_the_answer_and_saves_steps(monkeypatch):
     # towards the end of the cycle the edge of the pinion's relief runs along the line
     film = jamali_2015_film("a", nodes=(65, 129))

@@ -18,6 +18,7 @@ from gearlube_core.oil.eyring_1936 import Eyring
 from tests.helpers.hypoid_film_cases import BETA, flank_cycle, hypoid_film, lasting
 
 
+@pytest.mark.slow
 def test_a_turned_gap_under_straight_entrainment_is_the_oblique_contact():
     """Axes are a choice: the ellipse turned by psi with u along x, or psi between both."""
     R_x, R_y, psi, speed = 0.012, 0.036, math.radians(40.0), 2.0
@@ -67,6 +68,7 @@ def test_without_sliding_to_speak_of_only_slopes_of_pressure_thin_the_oil():
     np.testing.assert_allclose(stiff["minimum_film"], newtonian["minimum_film"], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_oil_sheared_thin_leaves_less_film_the_faster_it_slides():
     cycle = flank_cycle()
     film = hypoid_film(lasting(cycle, float(cycle.time[15]), np.linspace(0.0, 3e-4, 5)))
@@ -78,6 +80,7 @@ def test_oil_sheared_thin_leaves_less_film_the_faster_it_slides():
     assert films[0] > 1.005 * films[1] > 1.01 * films[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_a_march_under_lasting_conditions_stays_at_the_steady_film(scheme):
     cycle = flank_cycle()
@@ -88,6 +91,7 @@ def test_a_march_under_lasting_conditions_stays_at_the_steady_film(scheme):
     np.testing.assert_allclose(march["central_film"], march["central_film"][0], rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_slow_running_leaves_no_squeeze():
     """Conditions that change slowly against the passage give the steady film, fast ones do not."""
     phase = np.linspace(0.3, 0.8, 7)

@@ -115,6 +115,7 @@ def test_error_of_a_given_domain_covers_what_it_leaves_out():
     assert "error of the domain is not known" in solve_line(wavy).outcome
 
 
+@pytest.mark.slow
 @each(("line_load", "slide_roll"), [(2e3, 0.36), (2e4, 0.36), (360e3, 0.36), (360e3, 0.0)])
 def test_film_and_forces_are_those_of_three_times_the_domain(line_load, slide_roll):
     problem = thesis_line(line_load=line_load, slide_roll=slide_roll)

@@ -164,6 +164,7 @@ def test_shear_across_an_unevenly_warm_film_slides_as_the_surfaces_do(tau0, slop
     assert eta == pytest.approx(1.0 / fluidity, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_heat_goes_into_the_bodies_and_out_with_the_oil():
     solution = solve_thermal_line(contact(1.0), STEEL, STEEL, LineSettings(nodes=501))
     film = solution.film
@@ -181,6 +182,7 @@ def test_heat_goes_into_the_bodies_and_out_with_the_oil():
     assert film.friction_coefficient * 360e3 * sliding == pytest.approx(made, rel=0.03)
 
 
+@pytest.mark.slow
 def test_surfaces_flash_as_jaeger_says_for_a_band_of_heat():
     solution = solve_thermal_line(contact(0.36), STEEL, STEEL, LineSettings(nodes=501))
     film = solution.film
@@ -195,6 +197,7 @@ def test_surfaces_flash_as_jaeger_says_for_a_band_of_heat():
         assert rise == pytest.approx(band, rel=0.1)
 
 
+@pytest.mark.slow
 def test_pure_rolling_film_cools_where_it_expands():
     solution = solve_thermal_line(contact(1e-6), STEEL, STEEL, LineSettings(nodes=151))
     still = contact(1e-6, lubricant=OIL._replace(expansion=0.0))
@@ -204,6 +207,7 @@ def test_pure_rolling_film_cools_where_it_expands():
     assert solution.temperature.min() < T0 - 0.1
 
 
+@pytest.mark.slow
 def test_heat_lowers_traction_and_more_so_at_more_sliding():
     reductions = []
     for slide_roll in (0.05, 0.36, 1.0):
@@ -228,6 +232,7 @@ def test_bodies_and_oil_that_conduct_without_limit_leave_the_film_isothermal():
     )
 
 
+@pytest.mark.slow
 def test_temperature_does_not_depend_on_the_grids():
     base = solve_thermal_line(contact(1.0), STEEL, STEEL, LineSettings(nodes=301))
     fine = solve_thermal_line(
@@ -237,6 +242,7 @@ def test_temperature_does_not_depend_on_the_grids():
     assert base.film.friction_coefficient == pytest.approx(fine.film.friction_coefficient, rel=0.01)
 
 
+@pytest.mark.slow
 def test_reversed_motion_mirrors_the_temperatures():
     forward = contact(0.36, domain=(-1.0e-3, 0.38e-3))
     backward = replace(

@@ -68,6 +68,7 @@ def test_error_in_time_is_told_how_far_the_film_moves_in_a_step(monkeypatch):
     np.testing.assert_allclose(stored[0][filled], mass, rtol=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_rigid_cylinder_falls_through_oil_as_the_integral_says(scheme):
     # Reynolds with speeds 0: dp/dx = 12 eta (dh0/dt) x/h^3
@@ -103,6 +104,7 @@ def test_rigid_cylinder_falls_through_oil_as_the_integral_says(scheme):
     assert last - first == pytest.approx(rate * dt * (steps - 1 - steps // 2), rel=0.015)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_order_in_time_is_two(scheme):
     # load swings by 10 %, with a start whose rate is continuous

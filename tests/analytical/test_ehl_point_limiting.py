@@ -85,6 +85,7 @@ def _solved(oil: FilmOil) -> tuple[float, float, float]:
     return traction.force / problem.load, solution.minimum_film, solution.central_film
 
 
+@pytest.mark.slow
 def test_limited_film_lies_between_the_eyring_and_the_slipping_one():
     free = _solved(OIL)
     limited = _solved(OIL._replace(tau_limit=1e4, limit_slope=0.02))

@@ -59,6 +59,7 @@ def _whole_balance(solution: PointSolution) -> float:
     return float((leaving.sum() * dy + aside.sum() * dx) / (entering.sum() * dy) - 1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layer", [None, pytest.param(1.5, marks=pytest.mark.slow), 0.3])
 def test_what_enters_the_domain_leaves_it(layer: float | None) -> None:
     problem = moes_contact(50.0, 5.0, nodes=(65, 65))
@@ -74,6 +75,7 @@ def test_what_enters_the_domain_leaves_it(layer: float | None) -> None:
     assert abs(_whole_balance(solution)) < 1e-8
 
 
+@pytest.mark.slow
 def test_a_flooded_contact_has_the_film_of_reynolds_cavitation() -> None:
     differences = []
     for nodes in (49, 97):
@@ -117,6 +119,7 @@ def _wavy_contact(nodes: int) -> PointContactProblem:
     )
 
 
+@pytest.mark.slow
 def test_film_of_a_wavy_wall_breaks_and_forms_again_where_the_closed_form_says() -> None:
     errors = []
     for nodes in (115, 229):
@@ -170,6 +173,7 @@ def test_film_of_a_wavy_wall_breaks_and_forms_again_where_the_closed_form_says()
     assert errors[1] < 0.7 * errors[0]
 
 
+@pytest.mark.slow
 def test_starvation_lowers_the_film_to_the_layer_that_comes() -> None:
     problem = moes_contact(200.0, 10.0, nodes=(49, 49), oil_beyond=False)
     flooded = solve_point_contact(problem, RUPTURED)

@@ -99,6 +99,7 @@ def test_middle_of_a_long_contact_is_the_lines_film():
     assert film == pytest.approx(expected.film.central_film, rel=0.03)
 
 
+@pytest.mark.slow
 def test_heat_of_shear_goes_into_the_bodies_and_out_with_the_oil(warm):
     problem = warm.film.problem
     cell = (problem.x[1] - problem.x[0]) * (problem.y[1] - problem.y[0])
@@ -110,6 +111,7 @@ def test_heat_of_shear_goes_into_the_bodies_and_out_with_the_oil(warm):
     assert warm.friction_force * math.hypot(*SLID) == pytest.approx(made, rel=0.03)
 
 
+@pytest.mark.slow
 def test_contact_turned_and_mirrored_is_as_warm(warm):
     limits = warm.film.problem.x_limits, warm.film.problem.y_limits
     turned = contact(
@@ -126,12 +128,14 @@ def test_contact_turned_and_mirrored_is_as_warm(warm):
     assert other.friction_force == pytest.approx(warm.friction_force, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_bodies_change_places_with_the_sense_of_sliding(warm):
     other = solve_thermal_point(contact(sliding=(-SLID[0], -SLID[1])), STEEL, STEEL)
     assert other.temperature[..., ::-1] == pytest.approx(warm.temperature, abs=1e-3)
     assert other.film.film == pytest.approx(warm.film.film, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_slow_rolling_film_is_isothermal():
     slow = contact(entrainment=(0.02, 0.0), sliding=(0.0, 0.0), nodes=(49, 49))
     found = solve_thermal_point(slow, STEEL, STEEL)

@@ -51,6 +51,7 @@ def marched(ratio: float) -> FilmSolution:
     return found
 
 
+@pytest.mark.slow
 def test_the_film_in_pure_rolling_is_the_limit_of_small_sliding():
     for name in ("film", "pressure"):
         rolling, *slid = (getattr(marched(ratio), name) for ratio in (0.0, 5e-4, 1e-3))
@@ -61,6 +62,7 @@ def test_the_film_in_pure_rolling_is_the_limit_of_small_sliding():
         assert small < 1e-4 * rolling.max()
 
 
+@pytest.mark.slow
 def test_either_surface_may_be_the_faster_one():
     # the mean speed and the magnitude of sliding are the same: rounding alone differs
     one, other = marched(5e-4), marched(-5e-4)

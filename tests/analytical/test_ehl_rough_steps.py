@@ -109,6 +109,7 @@ def touching_march() -> FilmMarch:
     return march
 
 
+@pytest.mark.slow
 def test_solids_that_are_pressed_too_far_are_lifted_to_what_the_pressure_holds():
     march = touching_march()
     level, found = march._level, march._past.state
@@ -129,6 +130,7 @@ def test_solids_that_are_pressed_too_far_are_lifted_to_what_the_pressure_holds()
     assert lifted_off_solids(level, found) is found
 
 
+@pytest.mark.slow
 def test_lifted_peaks_leave_the_answer_and_save_steps(monkeypatch, tmp_path):
     case = RoughCase.from_data(TOUCHING, "touching")
     march = touching_march()
@@ -149,6 +151,7 @@ def test_lifted_peaks_leave_the_answer_and_save_steps(monkeypatch, tmp_path):
     assert found.film == pytest.approx(plain.film, rel=1e-3, abs=0.0)
 
 
+@pytest.mark.slow
 def test_a_tenth_of_the_tolerance_changes_no_statistic_by_one_percent():
     # three times the default changes the load on solids of a step by 2 %
     case = RoughCase.from_data(TOUCHING, "touching")

@@ -55,6 +55,7 @@ def moving(gap=None, load=None, speeds=None, nodes=(49, 49), oil=OIL, **more):
 STEP = A / (10.0 * SPEED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_film_under_lasting_conditions_stays_steady(scheme):
     film = moving()

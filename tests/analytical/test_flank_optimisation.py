@@ -51,6 +51,7 @@ def here(model):
     return model.evaluate(RELIEFS.start)
 
 
+@pytest.mark.slow
 def test_held_cells_give_what_the_plain_analysis_gives(here):
     settings = CheckSettings(positions=6, helical=HELICAL_CELLS)
     file = RELIEFS.changed(RELIEFS.start)
@@ -78,6 +79,7 @@ def test_a_new_number_of_the_plain_check_finds_no_older_positions(monkeypatch):
     assert keys[0] == keys[1] != keys[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loss", [False, True])
 def test_aim_and_limits_have_the_rates_of_differences(model, here, loss):
     limits = Limits(edge_share=0.3)
@@ -97,6 +99,7 @@ def test_aim_and_limits_have_the_rates_of_differences(model, here, loss):
     assert goal.used(here)[0].size == 6 * 3 + 1 + 6 * 3 + 1 + 1
 
 
+@pytest.mark.slow
 def test_the_swing_of_the_force_has_the_rates_of_differences(here):
     # a made-up force of eight phases: mean and orders by hand
     phase = 2.0 * np.pi * np.arange(8) / 8.0
@@ -119,6 +122,7 @@ def test_the_swing_of_the_force_is_no_limit_of_a_helical_pair():
         problem({"gear.flank.crown_um": {"low": 0.0, "high": 20.0}}, limits={"force_swing": 1.0})
 
 
+@pytest.mark.slow
 def test_a_slope_of_one_gear_is_met_by_that_of_the_other():
     given = problem({"pinion.flank.lead_slope_um": {"low": -30.0, "high": 30.0}})
     same = {  # equal members: from the other end of the face the mesh runs backwards
@@ -142,6 +146,7 @@ def test_a_slope_of_one_gear_is_met_by_that_of_the_other():
     assert goal.highest(found.evaluation) < 0.9
 
 
+@pytest.mark.slow
 def test_a_limit_that_binds_is_kept_and_costs():
     given = replace(RELIEFS, scenarios=RELIEFS.scenarios[:1])
     start = HeldModel(given, TEETH, given.start)

@@ -54,6 +54,7 @@ def edges_of(solid):
     return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("build", "euler"), [(tooth_solid, 2), (gear_solid, 0)])
 def test_every_edge_has_two_faces_that_pass_it_opposite_ways(tooth, build, euler):
     """A tooth is a ball, a gear with its bore a ring."""

@@ -39,6 +39,7 @@ def test_equal_cells_are_those_of_the_uniform_grid() -> None:
     assert np.abs(single(pressure) - uniform).max() < 1e-5 * uniform.max()
 
 
+@pytest.mark.slow
 def test_a_hertz_contact_flattens_a_ball_on_a_graded_grid_to_second_order() -> None:
     a, errors = 1.0e-4, []
     for count in (65, 129):

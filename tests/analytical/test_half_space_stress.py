@@ -162,6 +162,7 @@ def test_any_load_is_in_equilibrium_fits_together_and_meets_the_surface():
             assert np.abs(misfit).max() < 1e-4 * size
 
 
+@pytest.mark.slow
 def test_line_of_repeated_loads_is_that_of_many_single_ones():
     # bumps that repeat along y: 25 of them on a wide half-space that is open all around
     y = np.arange(16) / 8.0

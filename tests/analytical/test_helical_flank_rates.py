@@ -75,12 +75,14 @@ def analysed(file):
     return np.transpose(found)
 
 
+@pytest.mark.slow
 def test_values_are_those_of_the_iteration(rates):
     # the iteration's tolerance is 1e-9 of the closing, a cell's force is a hundredth of it
     for name, expected in zip(QUANTITIES, analysed(FILE), strict=True):
         np.testing.assert_allclose(getattr(rates, name), expected, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_rates_are_those_of_the_contact_on_frozen_cells(rates):
     teeth, phase = coarse_stiffness(FILE.helical_pair()), PHASES[1]
     modified = FILE.modified_pair()
@@ -119,6 +121,7 @@ def test_rates_are_those_of_the_contact_on_frozen_cells(rates):
             np.testing.assert_allclose(rate, difference, rtol=1e-6, atol=atol, err_msg=quantity)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k", "most"),
     [

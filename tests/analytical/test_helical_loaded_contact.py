@@ -101,6 +101,7 @@ def test_energy_is_the_integral_of_torque_over_rotation():
     assert states[2].tangent == pytest.approx(slope, rel=0.01)
 
 
+@pytest.mark.slow
 def test_equal_members_mesh_alike_from_either_end():
     # turned end for end, line X becomes the line at A + D + W tan(b) - X of the same mesh, so
     # phase p becomes eps_gamma - p. Without corners the answer is the same but for the strips'

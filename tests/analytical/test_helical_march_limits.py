@@ -52,6 +52,7 @@ def flanks(parameters: HelicalMarchParameters) -> tuple[FlankConstants, np.ndarr
     return constants.flanks, pair_data(constants, parameters.mesh, parameters.film_model())
 
 
+@pytest.mark.slow
 @each("phase", [0.03, 0.37, 0.71, 5.9])
 @each(("a", "tilt"), [(8e-6, 1e-4), (0.0, 3e-4), (-1e-6, -3e-4)])
 def test_sums_are_integrals_along_the_lines(phase: float, a: float, tilt: float) -> None:

@@ -67,6 +67,7 @@ def test_without_offsets_the_motion_grows_with_the_load():
     assert np.abs(error / one[0].scales).max() < 1e-8
 
 
+@pytest.mark.slow
 def test_multipliers_multiply_to_what_damping_leaves():
     """Liouville: det M = exp(-integral of all damping rates), the mesh's only where it touches."""
     problem, speed, motion = separated_motion(separating_pair(), steps_per_mesh_period=512)
@@ -87,6 +88,7 @@ def test_multipliers_multiply_to_what_damping_leaves():
     assert size == pytest.approx(-period * total, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_adaptive_integration_of_the_twelve_coordinates_returns_to_the_start():
     """DOP853 with the forces of the twelve coordinates, point by point."""
     problem, speed, motion = separated_motion(separating_pair(mu=0.05), steps_per_mesh_period=512)
@@ -169,6 +171,7 @@ def test_impacts_with_damping_create_no_energy():
     assert np.diff(energy).max() < 1e-6 * energy[0]
 
 
+@pytest.mark.slow
 def test_a_spur_pair_in_stiff_bearings_is_the_oscillator_with_a_gap():
     """m x'' + c g x' + k(t) max(x, 0) = F: one line or two, as the contact ratio of 1.49 has it.
 

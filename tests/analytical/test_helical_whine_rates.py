@@ -103,6 +103,7 @@ def analysed_again(frozen, teeth, name, change):
     return series_of_records(FILE, (PAIR.pinion_teeth, PAIR.gear_teeth), (), records, TORQUE)
 
 
+@pytest.mark.slow
 def test_whine_moves_by_reliefs_as_analyses_of_frozen_lines_do(frozen, teeth):
     series = helical_series_rates(FILE, SERIES, stiffness=teeth)
     found, speed = motion(series, rates=series.rates)
@@ -119,6 +120,7 @@ def test_whine_moves_by_reliefs_as_analyses_of_frozen_lines_do(frozen, teeth):
             np.testing.assert_allclose(rates[part], expected[part], rtol=0.0, atol=1e-6 * scale)
 
 
+@pytest.mark.slow
 def test_arms_are_the_base_radii_and_the_torques_balance(teeth):
     series = helical_series_rates(FILE, replace(SERIES, parameters=NAMES[:1]), stiffness=teeth)
     table = series.table

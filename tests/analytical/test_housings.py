@@ -49,7 +49,7 @@ def elements(mount: float = 1.0, **more) -> list:
 def turning(parts: list, **of_case) -> Train:
     """Return both shafts in their case, turning without load."""
     case = Housing(name="case", model=MODEL, **of_case)
-    train = Train([*SHAFTS.values(), case], parts, OIL, driver="generated",
+    train = Train([*SHAFTS.values(), case], parts, OIL,
                   steps_per_highest_period=40)  # fmt: skip
     train.initialise({"a": SPEED, "b": 0.0}, REST, KELVIN)
     return train
@@ -167,7 +167,7 @@ def test_preloaded_ball_bearings_bend_the_case_that_carries_them():
     case = Housing(name="case", model=reduced(FRAME, 20, fixed=True), free=False,
                    highest_frequency=1e3)  # fmt: skip
     parts = [Port(name="motor", body="a"), *bearings]
-    train = Train([SHAFTS["a"], case], parts, OIL, driver="generated")
+    train = Train([SHAFTS["a"], case], parts, OIL)
     train.initialise({"a": SPEED}, {"motor": 0.0}, KELVIN)
     found = train.outputs()
     loads, moved, rows = [], [], []

@@ -118,6 +118,7 @@ def test_the_motion_is_that_with_the_model_at_every_point(speed, torque, tempera
     assert loss[70:].mean() == pytest.approx(exact_loss[70:].mean(), rel=5e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coast", [False, True])
 def test_films_and_frictions_are_the_models_at_any_load_speed_and_phase(coast):
     # bins are a tenth wide: what bends within them is left out, and how far a node lies behind

@@ -156,6 +156,7 @@ def test_spur_gears_have_the_loss_factor_of_niemann_and_winter() -> None:
     assert cycle(spur, 1000, 2).loss_factor == pytest.approx(expected, rel=4e-3)
 
 
+@pytest.mark.slow
 def test_loss_is_the_integral_of_friction_times_sliding() -> None:
     result = cycle(HE, 4, 16)
     plane = HE.plane

@@ -55,6 +55,7 @@ def test_forces_balance_the_torques_of_both_members(side):
     assert sum(p.torque for p in state.pairs) == pytest.approx(120.0, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_work_of_the_torques_is_stored_as_strain_energy():
     # T_p dphi_p = T_g dphi_g + dU around the mesh at constant pinion torque. Arms are taken before
     # the pinion closes by `rotation`, so each side may be off by rotation times the work done;
@@ -78,6 +79,7 @@ def test_work_of_the_torques_is_stored_as_strain_energy():
     np.testing.assert_allclose(missing - drift, 0.0, atol=0.05 * np.ptp(stored))
 
 
+@pytest.mark.slow
 def test_energy_is_the_integral_of_torque_over_closing():
     pair = shipped_pair("drive")
     position = MeshPosition.at(pair, 0.4)
@@ -90,6 +92,7 @@ def test_energy_is_the_integral_of_torque_over_closing():
     assert energy[-1] - energy[0] == pytest.approx(work, rel=0.02)
 
 
+@pytest.mark.slow
 def test_tangent_stiffness_is_the_slope_of_torque_over_closing():
     position = MeshPosition.at(shipped_pair("coast"), 0.1)
     settings = LoadedSettings(strips=StripSettings(cells_across=48), tolerance=1e-7)
@@ -110,6 +113,7 @@ def test_a_light_load_touches_where_the_unloaded_flanks_do():
     assert np.linalg.norm(centre - path.r[0]) < 0.1e-3
 
 
+@pytest.mark.slow
 def test_contact_shares_rise_to_a_maximum_and_fall():
     pair, phases = shipped_pair("coast"), np.arange(8) / 8
     share = {}

@@ -1,6 +1,7 @@
 """Which edges of the teeth a loaded contact reaches."""
 
 import numpy as np
+import pytest
 
 from gearlube_core.hypoid_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.hypoid_contact.strips import StripSettings
@@ -20,6 +21,7 @@ def test_cells_beside_what_a_tooth_does_not_cover_are_at_an_edge_the_ends_of_a_s
     assert not beside_edge(np.ones((3, 3), bool)).any()
 
 
+@pytest.mark.slow
 def test_sharp_tips_carry_where_pairs_enter_and_leave_and_no_edge_does_at_little_load():
     # the shipped pair is sharp: docs/tooth_contact.md has Hertz' pressure at 10 N.m and that of
     # edges from 50 N.m on

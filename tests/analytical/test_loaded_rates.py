@@ -88,6 +88,7 @@ def test_rotation_rate_holds_with_cells_free_to_unload(frozen, rates):
     )
 
 
+@pytest.mark.slow
 def test_rotation_by_axial_displacement_is_axial_force_by_torque(frozen, rates):
     # Maxwell: with the work U* at given torque, d2U*/dT dp is the rotation's rate by p and the rate
     # by T of the force along p. Strips are cut again for each torque: 1 %.

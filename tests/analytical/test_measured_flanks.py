@@ -60,6 +60,7 @@ def errors(pair):
     return unloaded - unloaded.mean(), loaded - loaded.mean()
 
 
+@pytest.mark.slow
 def test_a_cut_change_of_settings_entered_as_5_x_9_numbers_gives_its_error(cut):
     pair, deviation = cut
     wanted, plain = errors(pair), errors(shipped_pair("drive"))

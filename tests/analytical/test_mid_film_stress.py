@@ -71,6 +71,7 @@ def test_mid_film_stress_is_found_at_any_viscosity(film):
     assert (found.stress_s, found.stress_r) == pytest.approx(stress(*sigma, a, limit), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_mid_film_stress_of_random_films():
     rng = np.random.default_rng(5)
     for _ in range(200):

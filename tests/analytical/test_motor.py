@@ -56,8 +56,7 @@ def rotor(**given: object) -> Train:
     ]
     shaft = HalfShaft(name="shaft", first="rotor", second="load", stiffness=1e3)
     mount = HalfShaft(name="mount", first="stator", second="ground", stiffness=1e4)
-    return Train(bodies, [motor, Port(name="brake", body="load"), *springs, shaft, mount], OIL,
-                 driver="generated")  # fmt: skip
+    return Train(bodies, [motor, Port(name="brake", body="load"), *springs, shaft, mount], OIL)
 
 
 @pytest.mark.parametrize(

@@ -44,6 +44,7 @@ def here(model):
     return model.evaluate(GIVEN.start)
 
 
+@pytest.mark.slow
 def test_the_other_flanks_are_judged_as_the_plain_analysis_judges_them(here):
     settings = CheckSettings(positions=6, hypoid=HYPOID_CELLS)
     plain = plain_check(GIVEN, GIVEN.changed(GIVEN.start), TEETH, settings, jobs=1)
@@ -65,6 +66,7 @@ def test_the_other_flanks_are_judged_as_the_plain_analysis_judges_them(here):
     np.testing.assert_allclose(here.other_pressure_rate, coast.pressure_rate, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_limits_of_the_other_flanks_have_the_rates_of_differences(model, here):
     limits = Limits(
         pressure=None,

@@ -46,6 +46,11 @@ def reported():
     return report_of("own_oil_in_gears", **INTERPRETED)
 
 
+@cache
+def contacts():
+    return report_of("own_oil_in_gears", "report_contacts", **INTERPRETED)
+
+
 def plateau(exponent, film, p, speed, radius):
     """Friction coefficient of Evans and Johnson 1986 at ln(eta/eta0), by hand."""
     oil = PLAIN.state(OIL)
@@ -86,6 +91,7 @@ def flank_channels():
     return channels
 
 
+@pytest.mark.slow
 @each(("law", "grown"), [("own_power", own_power), ("yasutomi", yasutomi)])
 def test_friction_of_the_axle_s_flanks_is_evans_and_johnson_s_at_the_viscosity_of_the_law(
     law, grown
@@ -115,10 +121,16 @@ def test_friction_of_the_axle_s_flanks_is_evans_and_johnson_s_at_the_viscosity_o
     assert compared
 
 
+@pytest.mark.slow
 def test_the_shipped_power_of_mcewen_is_the_same_law():
-    found, own = reported()["mcewen"], reported()["own_power"]
+    found, own = contacts()["mcewen"], contacts()["own_power"]
     for part in ("line", "rib"):
         assert found[part] == pytest.approx(own[part], rel=1e-9)
+
+
+@pytest.mark.slow
+def test_the_axle_s_outputs_are_those_of_the_shipped_power_of_mcewen():
+    found, own = reported()["mcewen"], reported()["own_power"]
     # rounding; q has another factor in the band of the loss
     kept = [i for i, name in enumerate(OUTPUT_NAMES) if name not in ("loss.low", "loss.high")]
     axles = [np.asarray(one["axle"])[kept] for one in (found, own)]
@@ -126,7 +138,7 @@ def test_the_shipped_power_of_mcewen_is_the_same_law():
 
 
 def test_friction_of_a_contact_line_is_the_same_at_the_viscosity_of_the_power_law():
-    found, without = reported()["own_power"]["line"], reported()["none"]["line"]
+    found, without = contacts()["own_power"]["line"], contacts()["none"]["line"]
     w, R, u, _ = LINE
     p = math.pi / 4.0 * math.sqrt(w * SOLID.contact_modulus / (math.pi * R))
     film = without["film_thickness"]
@@ -137,7 +149,7 @@ def test_friction_of_a_contact_line_is_the_same_at_the_viscosity_of_the_power_la
 
 def test_a_shear_law_bounds_the_friction_by_its_own_stress():
     """tau = tau_l tanh(eta dU/(h tau_l)), Gecim and Winer 1980."""
-    found, without = reported()["gecim_winer"]["line"], reported()["none"]["line"]
+    found, without = contacts()["gecim_winer"]["line"], contacts()["none"]["line"]
     w, R, _, slip = LINE
     p = math.pi / 4.0 * math.sqrt(w * SOLID.contact_modulus / (math.pi * R))
     oil, film = PLAIN.state(OIL), without["film_thickness"]
@@ -147,6 +159,7 @@ def test_a_shear_law_bounds_the_friction_by_its_own_stress():
     assert found["friction_coefficient"] == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_shear_law_bounds_the_friction_of_the_axle_s_flanks():
     outputs, without = reported()["gecim_winer"]["axle"], reported()["none"]["axle"]
     bounded = 0
@@ -161,6 +174,7 @@ def test_a_shear_law_bounds_the_friction_of_the_axle_s_flanks():
     assert bounded
 
 
+@pytest.mark.slow
 @each("model", ("axle", "pair"))
 def test_barus_by_another_package_is_the_barus_of_the_formulas(model):
     """All outputs of axle and pair: the law reaches every place where a formula takes it."""
@@ -173,7 +187,7 @@ def test_barus_by_another_package_is_the_barus_of_the_formulas(model):
 
 def test_ribs_have_roelands_s_law_unless_the_oil_brings_another():
     """Roelands by another package, whose kernel follows the oil's temperature, changes nothing."""
-    rib = {name: found["rib"] for name, found in reported().items()}
+    rib = {name: found["rib"] for name, found in contacts().items()}
     assert rib["over_eta0_followed"] == pytest.approx(rib["none"], rel=1e-9)
     # Barus is above Roelands, and the power law with q = 20 below Barus
     mu = {name: one["coefficient"] for name, one in rib.items()}
@@ -185,6 +199,7 @@ def test_ribs_have_roelands_s_law_unless_the_oil_brings_another():
     assert mu["gecim_winer"] == pytest.approx(LOW_LIMIT / p, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_an_fmu_with_the_files_computes_what_the_python_model_computes():
     found = reported()["own_power"]
     assert found["axle FMU"] == found["axle moving"]
@@ -196,6 +211,7 @@ def test_an_fmu_with_the_files_computes_what_the_python_model_computes():
         assert found[f"{model} moving"][lost] == pytest.approx(found[model][lost], rel=0.05)
 
 
+@pytest.mark.slow
 def test_mean_losses_of_the_axle_fall_with_the_law_as_those_of_a_step_do():
     lost = {law: reported()[law]["viscous loss"] for law in ("none", "own_barus", "own_power")}
     assert lost["own_barus"] == pytest.approx(lost["none"], rel=1e-9)
@@ -205,6 +221,7 @@ def test_mean_losses_of_the_axle_fall_with_the_law_as_those_of_a_step_do():
     assert lost["own_power"] / lost["none"] == pytest.approx(powers[0] / powers[1], rel=0.02)
 
 
+@pytest.mark.slow
 def test_fmus_error_bars_and_film_models_know_the_law():
     found = report_of("own_oil_in_gears", "report_names", **INTERPRETED)
     assert found["literals"] == [["custom"], ["custom"]]

@@ -90,6 +90,7 @@ def test_flow_converges_with_the_second_order():
     assert first / second == pytest.approx(4.0, rel=0.15)
 
 
+@pytest.mark.slow
 def test_thick_films_have_the_factors_of_second_order():
     # phi = 1 + 3 (sigma/h)^2 (1 - 3 c), Phi_s = 3 (sigma/h) c, c the mean of (k_x/k)^2
     for peklenik in (1.0, 0.25, 4.0):

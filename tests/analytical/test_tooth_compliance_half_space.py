@@ -91,6 +91,7 @@ def deep_block(per_hat, layers):
     return elastic, half_space_compliance(Flank(points), nodes, nodes, STEEL)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("per_hat", "layers", "own", "local"),
     [

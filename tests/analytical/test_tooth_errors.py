@@ -64,6 +64,7 @@ def order(turn, number):
     return 2.0 * np.fft.fft(turn)[number] / turn.size
 
 
+@pytest.mark.slow
 def test_curves_of_single_pairs_give_the_rotation_of_all_pairs_solved_together(curves, states):
     for i, state in enumerate(states):
         own = {name: values[i] for name, values in curves.items()}
@@ -73,6 +74,7 @@ def test_curves_of_single_pairs_give_the_rotation_of_all_pairs_solved_together(c
         assert found - state.unloaded_rotation == pytest.approx(closing, rel=0.015)
 
 
+@pytest.mark.slow
 def test_teeth_without_errors_add_nothing_to_the_bit(curves):
     none = added(curves, pinion={"pitch": {"drive": np.zeros(Z_P)}})
     np.testing.assert_array_equal(none, np.zeros((Z_P * Z_G, PHASES.size)))

@@ -111,6 +111,7 @@ def test_layer_elimination_equals_a_dense_solution():
     assert got == pytest.approx(expected, rel=1e-12, abs=1e-14)  # round-off
 
 
+@pytest.mark.slow
 def test_a_body_that_is_not_held_is_refused(tooth):
     _, basis, K = tooth
     layer = np.zeros(3 * basis.N, dtype=int)

@@ -93,6 +93,7 @@ def test_as_printed_damping_acts_across_the_gap():
 LOSSLESS = {"damping": 0.0, "hold_gain": 0.0, "radii": "paper"}
 
 
+@pytest.mark.slow
 @each(
     "parameters",
     [

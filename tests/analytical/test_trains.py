@@ -208,6 +208,7 @@ def on_bearings(bearings: tuple[Bearing, Bearing], law: str) -> Train:
     return Train(bodies, [*elements[:3], *opposed, *drags], PAIR.oil)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("bearings", "law"),
     [
@@ -252,6 +253,7 @@ def test_bearings_seals_and_churning_of_the_axle_serve_the_helical_pair(bearings
     assert before["sump.torque"] == pytest.approx(torque, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rollers", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_a_train_goes_on_from_a_saved_state_to_the_last_bit(rollers):
     train = on_bearings((Springs(), Springs()), "palmgren")

@@ -201,6 +201,7 @@ def test_steps_of_a_start_with_little_load_are_those_of_teeth_that_all_touch():
         assert rate / 16.0 == pytest.approx(highest, rel=1e-6), torque
 
 
+@pytest.mark.slow
 def test_loads_of_gears_follow_the_torques_down_to_a_millionth():
     """Flanks in contact are linear springs; friction is a share of the load."""
     found = []

@@ -103,6 +103,7 @@ def swing_apart(trains: dict[str, Train], torques: dict[str, float], h: float, n
     return float(np.abs(found["exponential"] - found["rk4"]).max() / np.abs(found["rk4"]).max())
 
 
+@pytest.mark.slow
 def test_a_shaft_in_a_housing_moves_as_by_rk4():
     """All is linear but gyroscopic moments and coupling dampers: long steps are near to exact."""
     tube = ShaftSection(start=0.0, end=0.3, outer_diameter=0.04)

@@ -51,6 +51,10 @@ def cylindrical(name: str, **more) -> CylindricalBearing:
     return CylindricalBearing(**(placed(name) | rollers | ribs | more))
 
 
+# code is compiled for each list of elements
+BOTH = [ball, pytest.param(cylindrical, marks=pytest.mark.slow)]
+
+
 def shaft_on(
     bearings: list[RingBearing], *, case: Body = HELD, force=FORCE, arm=0.02, **more
 ) -> Train:
@@ -64,7 +68,7 @@ def at_rest(train: Train, torque: float = 0.0, speed: float = SPEED) -> Train:
     return train
 
 
-@pytest.mark.parametrize("make", [ball, cylindrical])
+@pytest.mark.parametrize("make", BOTH)
 def test_a_shaft_rests_where_balls_and_rollers_balance_its_force(make):
     """The equations of all elements, written out here and solved by scipy, to its tolerance.
 
@@ -153,7 +157,8 @@ def wrench(train: Train, body: int):
     return rates * np.array([*3 * (one.mass,), *2 * (one.inertia,), one.polar_inertia])
 
 
-@pytest.mark.parametrize("make", [ball, cylindrical])
+@pytest.mark.slow
+@pytest.mark.parametrize("make", BOTH)
 def test_forces_on_body_and_housing_have_no_sum_and_no_moment(make):
     """About one point, with the displacements: elements on the cage, drag and dampers included."""
     given = {"housing_x": -OFFSET[0], "housing_y": -OFFSET[1]}
@@ -190,7 +195,7 @@ def test_forces_on_body_and_housing_have_no_sum_and_no_moment(make):
         assert abs(left) < 1e-9
 
 
-@pytest.mark.parametrize("make", [ball, cylindrical])
+@pytest.mark.parametrize("make", BOTH)
 def test_energy_of_a_march_is_kept(make):
     """Work, stored and lost energy of a shaft that is thrown about in its clearance, to 1e-6."""
     bearings = [make(name) for name in PLACES]
@@ -208,6 +213,7 @@ def test_energy_of_a_march_is_kept(make):
     assert abs(left) < 1e-6 * passed
 
 
+@pytest.mark.slow
 @each(
     "force, clearance, make, damping",
     [
@@ -226,6 +232,7 @@ def test_a_light_shaft_rests_at_the_edge_of_its_clearance(force, clearance, make
         assert found == pytest.approx(share * force, rel=1e-3, abs=2e-6)
 
 
+@pytest.mark.slow
 def test_nodes_of_a_shaft_that_bends_rest_in_bearings_on_the_ground():
     """Two bearings share a force as its lever arms do; the shaft bends between them as a beam."""
     tube = ShaftSection(start=0.0, end=0.2, outer_diameter=0.02)
@@ -246,6 +253,7 @@ def test_nodes_of_a_shaft_that_bends_rest_in_bearings_on_the_ground():
     assert bent == pytest.approx(400.0 * 0.2**3 / (48.0 * 2.06e11 * inertia), rel=0.05)
 
 
+@pytest.mark.slow
 def test_one_bearing_alone_carries_a_moment():
     """A body that is held by a single bearing tilts through its clearance."""
     train = at_rest(shaft_on([ball("left", arm=0.0, housing_z=0.0)], force=(200.0, 0.0, 50.0)))
@@ -284,6 +292,7 @@ def test_drag_acts_between_body_and_housing_as_palmgren_has_it():
         assert out[f"{name}.torque"] == pytest.approx(wanted, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_stiffness_varies_as_balls_pass():
     """A radial load rests between two balls lower than on one; the period is one spacing."""
     fixed = replace(SHAFT, held=("z", "rx", "ry"))

@@ -88,6 +88,7 @@ def test_strip_that_lags_takes_less() -> None:
     assert 0.0 < shares[1] < shares[2] < 0.5
 
 
+@pytest.mark.slow
 def test_work_of_the_torque_becomes_strain_energy() -> None:
     """dU = T d delta: closed gaps stay closed and open ones carry no force."""
     problem = teeth([3e-6, 0.0, 5e-6], [0.022, 0.0222, 0.0224])
@@ -144,6 +145,7 @@ def test_given_rotation_returns_the_torque(torque: float) -> None:
     )
 
 
+@pytest.mark.slow
 def test_stiff_bending_does_not_spoil_convergence() -> None:
     """Polonsky and Keer's step for penetrating cells diverges here at given rotation."""
     problem = teeth([3e-6, 0.0, 5e-6], [0.022, 0.0222, 0.0224], bending=1e-7)

@@ -110,6 +110,7 @@ def test_line_film_of_the_free_volume_law_satisfies_reynolds():
     assert rise[-1] == pytest.approx(p[inlet][-1] - p[inlet][0], rel=0.02)
 
 
+@pytest.mark.slow
 def test_heat_thins_the_film_of_the_free_volume_law():
     contact = line_contact(FOREIGN_OIL)
     settings = LineSettings(nodes=101)

@@ -111,6 +111,7 @@ def table_of(records, parameters=()):
     return assembled(shipped_file(), parameters, records, CYCLE)
 
 
+@pytest.mark.slow
 def test_settings_move_whine_as_analyses_of_frozen_strips_do(cells):
     variations = Variations.of(shipped_file(), cells[0][0].pair, NAMES)
     found = [[loaded_rates(variations, one.state, SOFT_TEETH) for one in row] for row in cells]

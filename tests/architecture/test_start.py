@@ -50,10 +50,12 @@ for study in studies.split() + ["build-fmu/--axle", "map/--oil", "bearing/tapere
 """
 
 
+@pytest.mark.slow
 def test_a_file_that_is_no_toml_is_refused_before_anything_large_is_imported() -> None:
     assert _imported_by(_READING) & set(_LARGE) <= {"pydantic"}
 
 
+@pytest.mark.slow
 def test_a_film_on_a_grid_is_solved_without_dask() -> None:
     """pyfftw would import dask's arrays, and with them pandas, for an interface nobody uses."""
     loaded = _imported_by("from gearlube_core.ehl.point.solver import solve_point_contact")

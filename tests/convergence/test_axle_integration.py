@@ -72,6 +72,7 @@ def test_default_steps_are_accurate_to_a_ten_thousandth_of_the_oscillation(speed
     assert np.max(np.abs(default - reference)) <= 1e-4 * np.ptp(reference)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("film", ["formula", "solved"])
 def test_result_does_not_depend_on_the_communication_step(film):
     def run(h, turn):

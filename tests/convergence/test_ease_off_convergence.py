@@ -9,6 +9,7 @@ from tests.helpers.contact_cases import SIDES, shipped_pair
 
 
 # both sides are in the default run of the two tests below
+@pytest.mark.slow
 @pytest.mark.parametrize("side", ["drive", pytest.param("coast", marks=pytest.mark.slow)])
 def test_least_ease_off_approaches_the_error_extreme(side):
     """Never below it, and within the rise of the bowl over half a grid step."""

@@ -25,6 +25,7 @@ def exact_line():
     return solve_line(thesis_line(), LineSettings(nodes=2001)).numbers
 
 
+@pytest.mark.slow
 @each("stencil", ["upwind-2", "central", "upwind-1"])
 def test_the_errors_of_a_line_bound_the_true_ones(stencil, exact_line):
     film = solve_line(thesis_line(), LineSettings(nodes=201, stencil=stencil))
@@ -57,6 +58,7 @@ def test_an_error_out_of_range_is_refused():
         solve_line(thesis_line(), film_error=2.0)
 
 
+@pytest.mark.slow
 def test_a_contact_on_too_few_nodes_warns():
     # its smallest film grows by 29 % from 129 to 257 nodes, by the reference of the study
     contact = random_contacts(82)[81]
@@ -66,6 +68,7 @@ def test_a_contact_on_too_few_nodes_warns():
     assert "That is above 5 %: take more nodes." in film.outcome.sentence
 
 
+@pytest.mark.slow
 def test_a_point_contact_is_refined_to_the_error_asked_for():
     contact = moes_contact(20.0, 5.0, nodes=(33, 33))
     film = solve_point_contact(contact, film_error=0.05)
@@ -79,6 +82,7 @@ def test_a_point_contact_is_refined_to_the_error_asked_for():
     assert not alone.coarser
 
 
+@pytest.mark.slow
 def test_coarser_films_from_a_finer_one_are_those_of_a_nest_of_their_own():
     contact = moes_contact(100.0, 8.0, nodes=(65, 65))
     film = solve_point_contact(contact)
@@ -90,6 +94,7 @@ def test_coarser_films_from_a_finer_one_are_those_of_a_nest_of_their_own():
     assert film.coarser[0].minimum_film == pytest.approx(nested.minimum_film, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_line_at_rest_tells_the_error_of_its_grid_and_a_march_that_of_its_steps(tmp_path):
     film = jamali_2015_film("a", nodes=(49, 33), solids=None)
     moving, start = film.moving_film(), 470.0 * film.time_step
@@ -115,6 +120,7 @@ def test_a_line_at_rest_tells_the_error_of_its_grid_and_a_march_that_of_its_step
     assert other.time_error == pytest.approx(one.time_error, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_line_marched_in_time_tells_the_error_of_its_steps():
     problem = thesis_line()
     start = solve_line(problem, LineSettings(nodes=101))

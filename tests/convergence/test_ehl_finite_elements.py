@@ -169,6 +169,7 @@ def manufactured_error(n, compliance):
     return np.abs(pressure - exact).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compliance", [0.0, 1.0])
 def test_manufactured_pressure_is_met_to_second_order(compliance):
     # compliance stands for K, which shrinks with the spacing as it does on a half-space
@@ -343,6 +344,7 @@ def element_film(problem, start, compliance=None):
     ) * scales.film
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("radius_y", "load", "angle", "sliding"),
     [
@@ -385,6 +387,7 @@ def test_films_of_elements_and_differences_meet_at_refinement(radius_y, load, an
     assert np.all(np.array(gaps[1]) < 0.5 * np.array(gaps[0]))
 
 
+@pytest.mark.slow
 def test_upwinding_removes_pressure_that_alternates_from_node_to_node():
     problem = replace(contact((65, 65)), load=80.0)
     differences = solve_point_contact(problem, QUICK)

@@ -36,6 +36,7 @@ def _film_in_the_middle(solution: FilmSolution) -> float:
     return float(np.interp(0.0, solution.x, solution.film[:, ROWS // 2]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "step",
     [
@@ -56,6 +57,7 @@ def test_a_graded_mesh_is_as_right_as_a_uniform_one_of_its_finest_spacing(step: 
     assert _film_in_the_middle(graded) == pytest.approx(_film_in_the_middle(fine), rel=2e-3)
 
 
+@pytest.mark.slow
 def test_errors_on_a_graded_mesh_fall_with_its_nodes() -> None:
     fine = _line(300, 385)
     errors = []
@@ -105,6 +107,7 @@ def test_a_film_of_first_order_differences_says_so(monkeypatch: pytest.MonkeyPat
     assert abs(first.minimum_film / second.minimum_film - 1.0) > 0.02
 
 
+@pytest.mark.slow
 def test_a_march_on_a_graded_mesh_follows_that_on_a_uniform_one() -> None:
     found = []
     for nodes, grading in ((97, EXIT_GRADING), (182, ())):

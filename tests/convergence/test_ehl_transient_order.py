@@ -71,6 +71,7 @@ def _distance(film: FilmSolution, other: FilmSolution) -> float:
     return float(np.sqrt(np.mean((film.film - other.film)[inside] ** 2)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["bdf2", "crank_nicolson"])
 def test_half_the_time_step_leaves_a_quarter_of_the_error(scheme: str) -> None:
     """Both schemes against one march of eight times as many steps, of the trapezoidal rule."""

@@ -47,6 +47,7 @@ def test_twice_the_cells_change_stiffness_by_less_than_one_percent(modified, pha
     np.testing.assert_allclose(coarse, fine, rtol=0.01)
 
 
+@pytest.mark.slow
 def test_stations_change_the_line_mesh_sums_not_at_all_and_its_moments_little():
     teeth, found = coarse_stiffness(HE_2007), []
     for stations in (8, 16):

@@ -51,6 +51,7 @@ def test_default_resolution_is_good_to_a_thousandth() -> None:
         assert error.max() < 1e-3 * expected.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("case", "mu"), [(he_2007_pair, 0.1), (spur_pair, 0.05)])
 def test_marching_through_time_settles_on_the_periodic_response(case: object, mu: float) -> None:
     """All twelve coordinates, SciPy's DOP853, until transients of 0.07 a period are gone."""

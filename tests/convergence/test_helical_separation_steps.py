@@ -1,6 +1,7 @@
 """Motions with tooth separation against the number of time steps and of points on a line."""
 
 import numpy as np
+import pytest
 
 from gearlube_core.dynamics.helical_pair.separation.problem import SeparationProblem
 from gearlube_core.periodic.shooting import solve_periodic
@@ -24,6 +25,7 @@ def test_separated_motions_converge_with_the_time_step():
     assert errors[2] < 1e-4
 
 
+@pytest.mark.slow
 def test_light_loads_converge_with_the_points_on_a_line():
     """A crowned line ends anywhere between two points; more of them find the end."""
     pair = separating_pair().pair

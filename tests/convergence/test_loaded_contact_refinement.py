@@ -22,6 +22,7 @@ def test_closing_changes_by_less_than_one_percent_on_refined_cells(phase, torque
     assert closing[0] == pytest.approx(closing[1], rel=0.01)
 
 
+@pytest.mark.slow
 def test_stiffness_over_the_mesh_is_smooth():
     # neighbouring positions differ by the true change plus the noise of newly cut cells; the
     # second difference of a smooth curve at 18 positions stays below a sixth of its range

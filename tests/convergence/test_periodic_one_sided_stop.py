@@ -46,6 +46,7 @@ def test_stop_hardens_the_resonance_into_two_folds():
     assert [stable for _, stable in branch().runs()] == [True, False, True]
 
 
+@pytest.mark.slow
 @each("w", [0.8, 1.1, 1.2, 2.0])
 def test_stable_motions_are_those_of_time_integration(w):
     found = branch()

@@ -68,6 +68,7 @@ def test_steps_in_angle_agree_with_an_adaptive_integrator_in_time(parameters):
     assert s[3] == pytest.approx(10 * 2.0 * np.pi / 13, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_absolute_angles_at_default_tolerances_destroy_the_result():
     """The transmission error is 1e-9 of the angles after a second: rtol 1e-3 cannot see it.
 

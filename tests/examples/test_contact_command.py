@@ -167,6 +167,7 @@ def test_sensitivity_takes_one_torque_and_the_misalignment(differentiated, asked
     assert not asked
 
 
+@pytest.mark.slow
 @each(
     ("options", "word"),
     [(("--torques", 20, 50), "one torque"), (("--export",), "--export"), (("--torques", 0), "0")],

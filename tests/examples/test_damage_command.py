@@ -30,6 +30,7 @@ def rows(folder, name):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.slow
 def test_a_table_of_bins_gives_summary_maps_and_report(bins, tmp_path):
     out = tmp_path / "out"
     more = "--pinion-bearings-kn", 88, 110, "--wear-coefficient", 5e-18
@@ -46,6 +47,7 @@ def test_a_table_of_bins_gives_summary_maps_and_report(bins, tmp_path):
     assert ["contact limit [MPa]", "1500.0"] in given
 
 
+@pytest.mark.slow
 def test_hardness_limits_and_the_test_of_the_oil_give_their_rows(bins, tmp_path):
     out = tmp_path / "out"
     hardness = "--surface-hv", 720, "--core-hv", 342, "--case-depth-mm", 0.8
@@ -69,6 +71,7 @@ def test_a_case_without_its_depth_is_refused(bins, tmp_path, caplog):
     assert "--case-depth-mm None" in caplog.text
 
 
+@pytest.mark.slow
 def test_a_cycle_with_a_severe_block(bins, tmp_path):
     trace, out = tmp_path / "trace.csv", tmp_path / "out"
     trace.write_text("time_s,speed_kmh\n" + "".join(f"{t},{40 + t / 5}\n" for t in range(0, 61, 5)))
@@ -88,6 +91,7 @@ def test_one_limit_is_refused_with_an_example(bins, tmp_path, caplog):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_a_pair_takes_a_table_of_bins(bins, tmp_path, monkeypatch, caplog):
     out = tmp_path / "out"
 

@@ -70,6 +70,7 @@ def made(tmp_path_factory):
     return SimpleNamespace(out=out, then=then, design=designs[0])
 
 
+@pytest.mark.slow
 def test_the_contact_analysis_finds_what_was_asked(made):
     check_near(made.design)
 

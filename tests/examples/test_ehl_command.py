@@ -101,6 +101,7 @@ def test_a_stopped_march_goes_on_as_if_it_had_not_stopped(spacing, tmp_path, mon
     assert (tmp_path / "both" / "compare.png").exists()
 
 
+@pytest.mark.slow
 def test_a_snapshot_that_was_asked_for_too_late_is_said(tmp_path, caplog, monkeypatch):
     monkeypatch.setattr(results, "save_film_figures", lambda *_: [])
     march = (
@@ -232,6 +233,7 @@ def test_the_example_is_a_case_file_that_runs(kind, model, asked, tmp_path):
     assert asked[0]["case"] == model.from_data(data, "own")
 
 
+@pytest.mark.slow
 @each(
     ("arguments", "word"),
     [
@@ -279,6 +281,7 @@ def test_what_is_out_of_range_ends_with_bad_argument(arguments, word, tmp_path, 
     assert not list(tmp_path.glob("*.nc"))
 
 
+@pytest.mark.slow
 def test_a_film_that_does_not_converge_is_written_and_fails(tmp_path, caplog, monkeypatch):
     monkeypatch.setattr(results, "save_film_figures", lambda *_: [])
     case = tmp_path / "hard.toml"
@@ -291,6 +294,7 @@ def test_a_film_that_does_not_converge_is_written_and_fails(tmp_path, caplog, mo
     assert not dataset.attrs["converged"]
 
 
+@pytest.mark.slow
 def test_heights_at_rest_between_moving_surfaces_are_warned_of(tmp_path, caplog, monkeypatch):
     monkeypatch.setattr(results, "save_film_figures", lambda *_: [])
     x = np.linspace(-2.0, 1.0, 601)

@@ -47,6 +47,7 @@ def test_it_writes_films_formulas_summary_and_figures(tmp_path):
     assert float(row["largest"]) == pytest.approx(float(ratio.max()), rel=1e-4)
 
 
+@pytest.mark.slow
 def test_thermal_films_stand_beside_the_cold_ones(tmp_path, monkeypatch, caplog):
     monkeypatch.setattr(results, "save_film_figures", lambda *_: [])
     options = (*TINY, "--load", "static", "--phases", "0.2:0.8", "--temperature", "thermal")
@@ -69,6 +70,7 @@ def test_thermal_films_stand_beside_the_cold_ones(tmp_path, monkeypatch, caplog)
     assert "no-march" in caplog.text
 
 
+@pytest.mark.slow
 def test_a_stopped_march_goes_on_to_the_same_film(tmp_path, monkeypatch):
     """Its record stands after every 2 steps; the rest gives what an unbroken march gives."""
     monkeypatch.setattr(results, "save_film_figures", lambda *_: [])
@@ -128,6 +130,7 @@ def test_the_example_is_the_shipped_case_and_can_be_read(tmp_path, asked):
     assert given["case"].oil == shipped.oil
 
 
+@pytest.mark.slow
 @each(
     ("options", "says"),
     [

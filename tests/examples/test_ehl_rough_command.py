@@ -109,6 +109,7 @@ def test_statistics_again_come_from_kept_films_alone(whole, case, monkeypatch):
     assert (whole / "frames.nc").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("undrawn")
 def test_the_animation_shows_every_kept_film_of_a_finished_run(whole, case, tmp_path, monkeypatch):
     out = tmp_path / "out"
@@ -133,6 +134,7 @@ def test_of_many_kept_films_an_even_choice_is_animated(whole, case):
     assert [one.attrs["step"] for one in read_frames(whole, key, 3)] == [0, 10, 20]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("undrawn")
 def test_a_stopped_march_goes_on_to_the_bit(case, tmp_path, whole):
     out = tmp_path / "out"

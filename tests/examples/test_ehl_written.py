@@ -36,6 +36,7 @@ def test_a_line_writes_dataset_summary_and_figures(tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_a_thermal_line_writes_its_temperatures(tmp_path):
     result = run("line", "jamali_2015_thermal", "--nodes", 201, "--out", tmp_path)
     assert result.exit_code == 0, result.output
@@ -46,6 +47,7 @@ def test_a_thermal_line_writes_its_temperatures(tmp_path):
     assert dataset["temperature_change"][-1] <= 1e-3
 
 
+@pytest.mark.slow
 def test_a_point_writes_dataset_summary_and_figures(tmp_path):
     result = run("point", "--nodes", 33, "--slide-roll", 0.1, "--out", tmp_path)
     assert result.exit_code == 0, result.output
@@ -65,6 +67,7 @@ def test_a_point_writes_dataset_summary_and_figures(tmp_path):
     assert (dataset["fill"] == 1.0).all()
 
 
+@pytest.mark.slow
 def test_a_point_that_conserves_mass_writes_what_broken_film_holds(tmp_path):
     options = ("--nodes", 33, "--slide-roll", 0.1, "--cavitation", "mass_conserving")
     assert run("point", *options, "--out", tmp_path).exit_code == 0
@@ -95,6 +98,7 @@ def test_a_thermal_point_writes_its_temperatures(tmp_path):
     assert heat == pytest.approx(dataset.attrs["friction_force"] * slip, rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_helical_line_writes_dataset_summary_and_figures(tmp_path):
     grid = ("--nodes-across", 41, "--nodes-along", 49)
     result = run("helical", "--step", 300, *grid, "--newtonian", "--out", tmp_path)

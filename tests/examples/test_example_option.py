@@ -76,6 +76,7 @@ def test_a_transfer_path_is_the_generic_one_also_between_its_lines(tmp_path):
         assert np.abs(ratio - 1.0).max() < 0.012
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["read", "extrude"])
 def test_a_profile_has_the_stated_roughness(command, tmp_path):
     (tmp_path / "profile.csv").write_text(printed("roughness", command), encoding="utf-8")
@@ -110,6 +111,7 @@ def test_a_gear_file_is_read(words, kind, name, tmp_path):
     assert kind.from_toml(tmp_path / "gear.toml").name == name
 
 
+@pytest.mark.slow
 def test_files_are_printed_as_shipped_and_without_loading_what_computes():
     words = (["sweep"], ["map"], ["axle", "show"], ["bearing"], ["oil"], ["contact"], ["design"])
     whine = (["whine"], ["whine", "he_2007"])

@@ -97,6 +97,7 @@ def test_a_march_begins_with_the_film_at_rest_and_needs_no_folder(tmp_path, monk
         run_helical_march(PAIR, MarchSteps(first=300, last=301, snapshots=(300,)))
 
 
+@pytest.mark.slow
 def test_a_record_with_more_steps_serves_a_shorter_march(tmp_path):
     given = MarchSteps(first=300, last=302, record_every=1)
     longer = run_helical_march(PAIR, given, folder=tmp_path)

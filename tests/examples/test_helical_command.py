@@ -122,6 +122,7 @@ def test_quick_run_writes_everything(tmp_path, monkeypatch, caplog):
     assert "Report:" in caplog.text
 
 
+@pytest.mark.slow
 def test_dynamics_alone_are_those_of_the_pair(small, tmp_path):
     result = run(*small, "--density", 13.16, "--out", tmp_path)
     assert result.exit_code == 0, result.output
@@ -142,6 +143,7 @@ def test_dynamics_alone_are_those_of_the_pair(small, tmp_path):
     assert float(response["F_yp_harmonic"].sel(case="0.1", harmonic=1)) == pytest.approx(first)
 
 
+@pytest.mark.slow
 def test_a_stopped_run_keeps_its_speeds_and_goes_on(small, tmp_path, monkeypatch, caplog):
     real, computed = sweep_grid.speed_column, []
 
@@ -172,6 +174,7 @@ def test_a_stopped_run_keeps_its_speeds_and_goes_on(small, tmp_path, monkeypatch
     assert np.isfinite(sweep["u_xp_harmonic"]).all()
 
 
+@pytest.mark.slow
 def test_parts_of_another_pair_are_not_taken(small, tmp_path):
     assert run(*small, "--out", tmp_path).exit_code == 0
     before = datasets(tmp_path)["sweep"]["delta_z_harmonic"].values
@@ -293,6 +296,7 @@ def test_files_that_lack_something_are_refused(changes, word, asked, caplog, mon
     assert not asked
 
 
+@pytest.mark.slow
 def test_a_stage_that_fails_leaves_the_others(small, tmp_path, monkeypatch, caplog):
     def fail(*_, **__):
         raise ConvergenceError("no map")
@@ -339,6 +343,7 @@ def test_numbers_that_a_study_lacks_are_not_in_its_summary():
     assert "nan" not in summary_csv(summary_rows(results))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("options", "stiffness"), [((), 756e6), (("--mesh", "density"), 539e6)])
 def test_the_pair_vibrates_on_the_stiffness_of_its_loaded_contact(
     options, stiffness, tmp_path, monkeypatch

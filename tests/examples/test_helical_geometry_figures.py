@@ -77,6 +77,7 @@ def test_dataset_says_what_everything_is_and_survives_being_written(designs, tmp
         xr.testing.assert_identical(read.load(), designs[0])
 
 
+@pytest.mark.slow
 def test_pair_without_modifications_leaves_their_figures_out(tmp_path):
     dataset = gear_file_geometry(HelicalGearFile.named("he_2007"))
     files = save_geometry_figures([dataset], tmp_path / "figures")

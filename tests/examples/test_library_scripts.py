@@ -40,6 +40,7 @@ def test_transmission_error_peaks_between_slow_and_fast():
     assert resonant > 1.5 * slow
 
 
+@pytest.mark.slow
 def test_friction_of_the_ball_comes_with_sliding_and_its_film_hardly_changes():
     (still, zero), (film, some) = friction([0.0, 0.5])
     assert zero == 0.0
@@ -62,6 +63,7 @@ def test_the_measured_profile_presses_its_peaks_through_the_film(monkeypatch):
     assert films["film_min"].values[-1] < 0.8 * films["film_min"].values[0]
 
 
+@pytest.mark.slow
 def test_panels_of_the_case_move_as_those_of_its_finite_elements():
     """All finite elements, computed once, give 311.2 1/s of the top and 377.6 of the cover.
 

@@ -25,6 +25,7 @@ def measured(*arguments):
     return CliRunner().invoke(cli.app, ["measured", *map(str, arguments)])
 
 
+@pytest.mark.slow
 def test_the_example_becomes_a_gear_file_with_a_picture(tmp_path):
     done = measured(FILE, "--out", tmp_path / "m")
     assert done.exit_code == 0, done.output
@@ -36,6 +37,7 @@ def test_the_example_becomes_a_gear_file_with_a_picture(tmp_path):
     assert "Deviation of the pinion coast flank" in (tmp_path / "m" / "report.html").read_text()
 
 
+@pytest.mark.slow
 def test_fitted_settings_are_those_with_which_the_example_was_made(tmp_path):
     fields = ["pinion.machine.tilt_angle_deg", "pinion.machine.radial_setting_mm"]
     options = [word for field in fields for word in ("--fit", field)]

@@ -24,6 +24,7 @@ def statistics(path):
         return {row["name"]: float(row["value"]) for row in csv.DictReader(file)}
 
 
+@pytest.mark.slow
 def test_a_made_profile_is_read_filtered_and_drawn_out(tmp_path, caplog):
     made = tmp_path / "made"
     arguments = (
@@ -60,6 +61,7 @@ def test_a_made_profile_is_read_filtered_and_drawn_out(tmp_path, caplog):
     assert of["length"] == pytest.approx(100.0, abs=3.6)  # three spacings
 
 
+@pytest.mark.slow
 def test_a_map_and_a_stand_in_are_written(tmp_path, caplog):
     arguments = ("--rq-um", 0.2, "--width-mm", 0.1, "--period-mm", 0.2, "--points", 128)
     more = ("--rows", 48, "--correlation-um", 12, "--skewness", -0.3, "--cut-peaks-um", 0.4)

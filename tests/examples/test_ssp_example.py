@@ -34,6 +34,7 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("oil", run.OILS)
 def test_ecos_and_libcosim_couple_both_fmus_as_python_does(
     fmus: dict[str, Path], tmp_path: Path, oil: str

@@ -11,6 +11,7 @@ from tests.helpers.fmu_cases import CASES, Case, H
 from tests.helpers.fmu_host import OK, Host
 
 
+@pytest.mark.slow
 def test_the_fmu_gives_the_numbers_of_the_model_bit_for_bit(case: Case, host: Host) -> None:
     pinion, wheel = case.torques
     torques = [(pinion + 5.0 * np.sin(k), wheel + 10.0 * np.cos(k)) for k in range(20)]
@@ -31,6 +32,7 @@ def test_the_fmu_gives_the_numbers_of_the_model_bit_for_bit(case: Case, host: Ho
     assert host.outputs() == case.direct(20, speed=speed, torques=torques, **settings)
 
 
+@pytest.mark.slow
 def test_each_literal_of_an_option_selects_the_option_of_the_model(
     case: Case, new_host: Callable[[], Host]
 ) -> None:
@@ -74,6 +76,7 @@ def test_the_start_equilibrium_is_read_before_the_first_step(case: Case, host: H
     assert host.outputs() == case.direct(0)
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_communication_step(
     case: Case, new_host: Callable[[], Host]
 ) -> None:

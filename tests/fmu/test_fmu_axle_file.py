@@ -96,6 +96,7 @@ def in_python(path: Path, steps: int, h: float) -> HypoidAxle:
     return axle
 
 
+@pytest.mark.slow
 def test_the_fmu_in_python_computes_the_axle_of_its_file_bit_for_bit(
     folder: Path, axle_file: Path, host_of: Callable[[Path], Host]
 ) -> None:
@@ -108,6 +109,7 @@ def test_the_fmu_in_python_computes_the_axle_of_its_file_bit_for_bit(
     assert host.get(*names) == [axle.output(name) for name in names]
 
 
+@pytest.mark.slow
 def test_the_fmu_is_sound_and_carries_both_files_to_the_byte(fmu: Path, axle_file: Path) -> None:
     assert problems(fmu) == []
     with zipfile.ZipFile(fmu) as archive:
@@ -167,6 +169,7 @@ def test_the_shipped_file_starts_where_the_plain_fmu_starts() -> None:
     assert {v.name: v.start for v in definition_with_axle("mohammadpour_2015").variables} == plain
 
 
+@pytest.mark.slow
 def test_the_guid_follows_every_byte_of_file_and_table(axle_file: Path, tmp_path: Path) -> None:
     path, table = tmp_path / "copy.toml", tmp_path / "own.nc"
     path.write_bytes(axle_file.read_bytes())
@@ -225,6 +228,7 @@ def test_the_native_fmu_of_the_example_is_its_axle_in_python_over_20_ms() -> Non
         assert one == pytest.approx(two, rel=1e-9, abs=floor), name
 
 
+@pytest.mark.slow
 def test_a_sweep_point_takes_car_and_axle_from_the_fmu(folder: Path) -> None:
     made = car_axle_of(folder)
     assert (made.name, made.driveline.road_load.vehicle.mass) == ("two_bearings", 1600.0)
@@ -238,6 +242,7 @@ def test_a_sweep_point_takes_car_and_axle_from_the_fmu(folder: Path) -> None:
     assert float(point["wheel_torque"]) == pytest.approx(road.ring_gear_torque(60 / 3.6), rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_point_of_the_shipped_file_is_that_of_the_plain_fmu(
     axle_folder: Path, tmp_path: Path
 ) -> None:

@@ -78,6 +78,7 @@ def test_a_step_before_initialisation_is_discarded(host: Host) -> None:
     assert "must be in state STEPPING, is in INSTANTIATED" in host.messages("logStatusDiscard")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "name", "value", "limit"),
     [
@@ -120,6 +121,7 @@ def test_no_output_can_be_read_after_a_failed_initialisation(case: Case, host: H
     assert host.status("getReal", [host.variables["mesh.dte"].valueReference]) == FATAL
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("call", "name", "value", "reason"),
     [

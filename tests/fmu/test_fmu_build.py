@@ -67,6 +67,7 @@ def test_the_command_builds_and_checks(tmp_path: Path, caplog: pytest.LogCapture
     assert {path.name for path in tmp_path.iterdir()} == {f"{case.name}.fmu" for case in CASES}
 
 
+@pytest.mark.slow
 def test_the_check_reports_an_output_without_unit(fmu_path: Path, tmp_path: Path) -> None:
     with zipfile.ZipFile(fmu_path) as archive:
         content = {name: archive.read(name) for name in archive.namelist()}
@@ -77,6 +78,7 @@ def test_the_check_reports_an_output_without_unit(fmu_path: Path, tmp_path: Path
     assert any('unit "J"' in problem for problem in problems(broken))
 
 
+@pytest.mark.slow
 def test_the_check_reports_an_output_missing_from_the_structure(
     case: Case, fmu_path: Path, tmp_path: Path
 ) -> None:

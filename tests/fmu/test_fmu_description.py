@@ -56,6 +56,7 @@ def test_the_description_obeys_the_schema_of_the_standard(fmu_folder: Path) -> N
     assert list(validator.error_log) == []
 
 
+@pytest.mark.slow
 def test_fmpy_finds_no_problem(fmu_path: Path) -> None:
     assert fmpy_problems(fmu_path) == []
 
@@ -64,6 +65,7 @@ def test_fmutool_finds_no_problem(fmu_path: Path) -> None:
     assert fmutool_problems(fmu_path) == []
 
 
+@pytest.mark.slow
 def test_the_command_fmutool_check_is_content(fmu_path: Path) -> None:
     command = [str(Path(sys.executable).with_name("fmutool")), "-input", str(fmu_path), "-check"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -156,6 +156,7 @@ def test_a_pair_without_line_mesh_refuses_it(
         )
 
 
+@pytest.mark.slow
 def test_the_fmu_is_sound_and_carries_the_files_to_the_byte(
     fmu: Path, gear_file: Path, line_mesh: Path, folder: Path
 ) -> None:

@@ -9,6 +9,8 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
+import pytest
+
 import fmu_src
 from fmu_src import identity
 from fmu_src.hypoid_axle import DEFINITION
@@ -34,6 +36,7 @@ for path in opened:
 """
 
 
+@pytest.mark.slow
 def test_the_guid_covers_every_file_that_an_fmu_loads(case: Case) -> None:
     slave = f"fmu_src.{case.definition.slave}"
     code = _RUN.format(slave=slave, name=case.name, packages=_PACKAGES)
@@ -84,6 +87,7 @@ for name, old, new, changes in {edits}:
 """
 
 
+@pytest.mark.slow
 def test_the_guid_follows_code_and_data_but_no_words(tmp_path: Path) -> None:
     for package in ("fmu_src", "drivetrain", "gearlube_core"):
         ignore = shutil.ignore_patterns("__pycache__", "*.png")

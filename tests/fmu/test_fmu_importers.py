@@ -39,6 +39,7 @@ def test_libcosim_gives_the_numbers_of_the_model(job: Job, expected: list[float]
     assert hosts.in_libcosim(job) == expected
 
 
+@pytest.mark.slow
 def test_ecos_gives_the_numbers_of_the_model(job: Job, expected: list[float]) -> None:
     assert hosts.in_ecos(job) == expected
 

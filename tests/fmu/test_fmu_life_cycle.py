@@ -33,6 +33,7 @@ def test_reset_heals_an_instance_that_failed(host: Host) -> None:
     assert host.step() == OK
 
 
+@pytest.mark.slow
 def test_two_instances_in_turn_equal_two_alone(case: Case, new_host: Callable[[], Host]) -> None:
     settings = ({}, case.changed)
     alone = []

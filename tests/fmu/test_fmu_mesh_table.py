@@ -95,6 +95,7 @@ def test_the_description_names_table_teeth_and_source(other_folder: Path) -> Non
     assert [name for name in DEFINITION.references if f'name="{name}"' not in text] == []
 
 
+@pytest.mark.slow
 def test_the_fmu_is_sound_and_carries_the_file_to_the_byte(other_fmu: Path, table: Path) -> None:
     assert problems(other_fmu) == []
     with zipfile.ZipFile(other_fmu) as archive:
@@ -153,6 +154,7 @@ def test_states_of_two_tables_do_not_mix(
     assert other.restore(shipped.save(), 0.0) == FATAL
 
 
+@pytest.mark.slow
 def test_a_sweep_point_takes_the_final_drive_from_the_fmu(other_folder: Path) -> None:
     drive = car_axle_of(other_folder).driveline.road_load.final_drive
     assert (drive.pinion_teeth, drive.gear_teeth) == (11, 43)

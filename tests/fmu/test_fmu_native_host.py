@@ -80,6 +80,7 @@ def test_ecos_runs_the_fmu_and_ends_well(case: Case, fmu_path: Path, tmp_path: P
 
 # Several FMUs and endings in one process take a program of our own. Where there is no compiler, the
 # test above still holds the commonest sequence: one FMU, freed and closed.
+@pytest.mark.slow
 @pytest.mark.skipif(COMPILER is None, reason="no C compiler for a host of several FMUs")
 @pytest.mark.parametrize(
     "ending",

@@ -81,6 +81,7 @@ def test_the_native_fmu_holds_the_speed_as_python_does_and_so_does_a_solver(
     assert np.all(np.abs(solved - two).max(axis=1) < limit)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", HOLD)
 def test_the_native_pair_is_held_by_its_own_steps_and_by_a_solver(mode: str) -> None:
     speed, fmu = PAIR.start("pinion.speed_start"), native_fmus(PAIR).fmi2
@@ -131,6 +132,7 @@ def test_a_speed_held_against_the_start_is_refused(fmus: NativeFmus) -> None:
     assert any("speed.reference must be within -5000 to 5000 rad/s" in one for one in messages)
 
 
+@pytest.mark.slow
 def test_the_recipe_of_a_map_gives_the_loss_map(fmus: NativeFmus, example) -> None:
     speeds, loads = [50.0, 100.0, 150.0, 200.0, 300.0], [50.0, 150.0, 400.0, 800.0]
     found = example.loss_map(fmus.fmi2, speeds, loads)
@@ -142,6 +144,7 @@ def test_the_recipe_of_a_map_gives_the_loss_map(fmus: NativeFmus, example) -> No
         assert loss == pytest.approx(expected.total.item(), rel=0.01), (torque, speed)
 
 
+@pytest.mark.slow
 def test_the_recipe_of_an_order_track_follows_the_ramp_and_finds_the_resonance(
     fmus: NativeFmus, example
 ) -> None:
@@ -166,6 +169,7 @@ def test_the_recipe_of_an_order_track_follows_the_ramp_and_finds_the_resonance(
     assert amplitudes.max() > 5.0 * amplitudes[0]
 
 
+@pytest.mark.slow
 def test_a_train_of_a_file_is_held_in_its_fmu(tmp_path: Path) -> None:
     text = ROTORS.replace(
         'kind = "port"\nbody = "engine"\n',

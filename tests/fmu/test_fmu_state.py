@@ -24,6 +24,7 @@ def settings(case: Case, request: pytest.FixtureRequest) -> dict[str, float]:
     return last | {"gear.name": 1} if "gear.name" in last else last
 
 
+@pytest.mark.slow
 def test_a_restored_state_continues_bit_for_bit(
     case: Case, host: Host, settings: dict[str, float]
 ) -> None:
@@ -43,6 +44,7 @@ def test_a_restored_state_continues_bit_for_bit(
 
 
 # the test above restores each setting in one process; what crosses over is the same record
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",
     [
@@ -106,6 +108,7 @@ def _damaged(content: bytes) -> bytes:
     return content[:-1] + bytes([content[-1] ^ 1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("spoil", "reason"),
     [

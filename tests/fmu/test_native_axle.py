@@ -218,6 +218,7 @@ def test_an_axle_file_changes_constants_alone_and_is_the_axle_of_python_over_20_
     assert_outputs_agree(run, axle, 1e-9)
 
 
+@pytest.mark.slow
 def test_film_models_of_ones_own_are_constants_and_change_the_films_as_in_python(native, tmp_path):
     altered("hypoid_flank", film=1.1, friction=0.9).write(tmp_path / "flank.json")
     altered("roller_race", film=1.3, friction=1.2).write(tmp_path / "roller.json")
@@ -315,6 +316,7 @@ def test_a_law_of_drag_that_costs_more_leaves_fewer_steps(native):
             assert run(Operation.STEP, (MAX_STEPS / 3.0) / per_second) == OK
 
 
+@pytest.mark.slow
 def test_another_mesh_table_is_the_one_that_counts(tmp_path):
     shipped = shipped_mesh_table("mohammadpour_2015")
     other = replace(with_coast_flanks(shipped), name="11_43", pinion_teeth=11, gear_teeth=43)

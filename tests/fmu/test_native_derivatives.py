@@ -78,6 +78,7 @@ def jacobians(run: NativeRun) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.array(found) / rows, np.array(wanted) / rows, np.array(errors) / rows
 
 
+@pytest.mark.slow
 def test_derivatives_are_exact_to_one_part_in_a_billion(loaded: LoadedModel) -> None:
     run, last = started(loaded, {}), 0.0
     entries, confirmed, typical = 0, 0, []

@@ -70,6 +70,7 @@ def expected(car: Driveline, ripple: float, steps: int, h: float) -> list[float]
     return [*torques, car.vehicle_speed, car.engine_speed, pinion, car.gear]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [3.0, 8.7, 13.1, 20.0, 41.0])
 def test_it_starts_as_the_driveline_of_the_package(fmus: list[Path], speed: float) -> None:
     car = Driveline(default_car(), speed)
@@ -146,6 +147,7 @@ def _motion(car: Driveline, steps: int, h: float):  # type: ignore[no-untyped-de
     return table
 
 
+@pytest.mark.slow
 def test_checkers_find_no_problem(fmus: list[Path]) -> None:
     assert [problems(fmu) for fmu in fmus] == [[], []]
 
@@ -214,6 +216,7 @@ def test_a_start_speed_without_a_gear_is_refused(fmus: list[Path], tmp_path: Pat
         in_c_host(job, tmp_path)
 
 
+@pytest.mark.slow
 def test_the_car_of_an_axle_file_is_built_beside_its_axle(
     model: NativeModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -86,6 +86,7 @@ def test_a_host_of_fmi_3_gives_the_numbers_of_fmi_2(
     assert FMI3[host](replace(job, fmu=fmus.fmi3)) == in_fmpy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("settings", SETTINGS.values(), ids=SETTINGS)
 def test_floats_as_a_host_sets_them_change_no_bit_of_a_gear(
     native_case: Case, fmus: NativeFmus, settings: tuple[int, int], tmp_path: Path
@@ -108,6 +109,7 @@ def test_floats_as_a_host_sets_them_change_no_bit_of_a_gear(
     assert ride(under(library, settings)) == ride(library)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "h"),
     [
@@ -135,6 +137,7 @@ def test_the_reference_results_inside_come_out_again(
     assert np.ptp(expected["mesh.dte"]) > 0.0
 
 
+@pytest.mark.slow
 def test_several_instances_packed_into_one_fmu_give_the_numbers_of_one(
     native_case: Case, job: Job, in_fmpy: list[float], tmp_path: Path
 ) -> None:

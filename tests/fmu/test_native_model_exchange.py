@@ -59,6 +59,7 @@ def turning(fmu: Unpacked, native_case: Case) -> Iterator[Exchange]:
     instance.close()
 
 
+@pytest.mark.slow
 def test_the_checkers_find_no_problem(fmus: NativeFmus) -> None:
     assert fmpy_problems(fmus.fmi2) + fmpy_problems(fmus.fmi3) + fmutool_problems(fmus.fmi2) == []
     for path, schema in ((fmus.fmi2, "fmi2"), (fmus.fmi3, "fmi3")):

@@ -53,6 +53,7 @@ def test_the_fmu_has_the_name_of_the_train_and_passes_the_checker(fmus: list[Pat
     assert [problems(path) for path in fmus] == [[], []]
 
 
+@pytest.mark.slow
 def test_its_reference_results_come_out_again(tmp_path: Path) -> None:
     """The torque of the port, which starts at 10 N.m here, rises by a fifth."""
     fmu = built(ROTORS.replace("drive = 0.0", "drive = 10.0"), tmp_path)[0]
@@ -225,6 +226,7 @@ def test_what_cannot_be_combined_is_said(tmp_path: Path) -> None:
         build_models(tmp_path, "driveline", train="e_axle", native=NativeOptions())
 
 
+@pytest.mark.slow
 def test_trains_of_the_packages_elements_share_one_library(tmp_path: Path) -> None:
     own = tmp_path / "own.toml"
     own.write_text(WITH_BRAKE)

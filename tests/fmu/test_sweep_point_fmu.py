@@ -21,6 +21,7 @@ def point(request, axle_folder):
     return run_point(axle_folder, 60.0, 2500.0, SweepSettings(driver=request.param, **SHORT))
 
 
+@pytest.mark.slow
 def test_point_finishes_at_the_speed_asked_for(point):
     assert int(point["status"]) == 1, str(point["message"].values)
     # The drivers start with the losses of the axle, measured to a few per cent in a short run;
@@ -28,6 +29,7 @@ def test_point_finishes_at_the_speed_asked_for(point):
     assert float(point["vehicle_speed"]) == pytest.approx(60.0 / 3.6, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_engine_torque_covers_road_load_and_axle_losses_from_the_start(point):
     torque_for_losses = float(point["loss"].sum()) / float(point["pinion_speed"])
     expected = float(point["wheel_torque"]) * 13.0 / 36.0 + torque_for_losses
@@ -75,6 +77,7 @@ def test_mean_load_of_three_tooth_pairs_is_the_mean_mesh_force(point):
     assert float(total) == pytest.approx(float(point["mesh_force_mean"]), rel=1e-2)
 
 
+@pytest.mark.slow
 def test_gear_mesh_alone_drives_the_axle_without_an_engine(axle_folder):
     point = run_point(axle_folder, 60.0, 2500.0, SweepSettings(driver="hold", **SHORT))
     order, amplitude = point["order"].values, point["dte_spectrum"].values
@@ -92,6 +95,7 @@ def test_higher_preload_raises_every_bearing_mode_by_the_power_of_one_twentieth(
     assert modes[1] / modes[0] == pytest.approx((6000.0 / 2500.0) ** 0.05, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_the_oil_of_a_steady_point_is_as_warm_as_the_air_lets_it_be(axle_folder):
     short = {"settling_time": 0.05, "record_time": 0.05, "cage_turns": 0.3}
     settings = SweepSettings(
@@ -174,6 +178,7 @@ def test_printed_equations_lose_contact_where_the_consistent_ones_keep_it(axle_f
     assert int(consistent["separation"]) == 0
 
 
+@pytest.mark.slow
 def test_the_march_without_an_fmu_gives_the_same_point(point, request):
     driver = request.node.callspec.params["point"]
     settings = SweepSettings(driver=driver, **SHORT)

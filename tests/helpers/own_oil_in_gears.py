@@ -132,22 +132,29 @@ def refusal(call, *arguments):
     return ""
 
 
+def report_contacts():
+    """Write friction of a contact line and of a rib, by law, as JSON."""
+    imported()
+    found = {}
+    for name, laws in LAWS.items():
+        oil = axle_in(laws).oil
+        found[name] = {"line": line_friction(*LINE, oil.state(OIL), SURFACE, SOLID)._asdict()}
+        if name == "gecim_winer":
+            oil = replace(oil, shear_law=replace(oil.shear_law, limit=LOW_LIMIT))
+        found[name]["rib"] = rib_friction(*RIB, oil.state(OIL))._asdict()
+    sys.stdout.write(json.dumps(found))
+
+
 def report():
     """Write outputs of axle and pair at rest and after a step, by law, as JSON."""
     imported()
     found = {}
     for name, laws in LAWS.items():
-        of_axle = axle_in(laws)
-        oil = of_axle.oil
-        if name == "gecim_winer":
-            oil = replace(oil, shear_law=replace(oil.shear_law, limit=LOW_LIMIT))
-        of_rib = rib_friction(*RIB, oil.state(OIL))._asdict()
         if name == "over_eta0_followed":
-            found[name] = {"rib": of_rib}
             continue
+        of_axle = axle_in(laws)
         axle = started(HypoidAxle(of_axle, loss_sensitivities(of_axle)), SPEED, INPUTS)
-        line = line_friction(*LINE, of_axle.oil.state(OIL), SURFACE, SOLID)
-        one = found[name] = {"axle": axle.outputs.tolist(), "line": line._asdict(), "rib": of_rib}
+        one = found[name] = {"axle": axle.outputs.tolist()}
         if name in ("gecim_winer", "mcewen", "yasutomi"):
             continue
         smooth = replace(pair_in(laws), roughness_rms=2e-8)

@@ -50,6 +50,7 @@ def over_the_cycle(design):
     return steps, np.array([largest(design, step, (101, 128)) for step in steps])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("design", "low", "high"), [("a", 1.02, 1.25), ("b", 0.82, 1.12)])
 def test_range_over_the_cycle(design, low, high):
     # printed from a figure to two digits; dry 1.05..1.26 (A), 0.83..1.12 (B)
@@ -58,6 +59,7 @@ def test_range_over_the_cycle(design, low, high):
     assert pressures.max() == pytest.approx(high, rel=0.05)
 
 
+@pytest.mark.slow
 def test_design_a_peaks_near_steps_100_and_500():
     steps, pressures = over_the_cycle("a")
     first, second = steps < 290, steps >= 290
@@ -77,6 +79,7 @@ def test_design_a_step_500_without_blending_is_three_times_higher():
     assert largest("a", 500, k=0.0) > 2.5 * largest("a", 500)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("beta", "value"), [(2.0, 1.1), (3.0, 1.0), (4.0, 0.96)])
 def test_design_b_step_75_over_the_power_of_relief(beta, value):
     assert largest("b", 75, beta=beta) == pytest.approx(value, rel=0.05)

@@ -25,6 +25,7 @@ def film(contact):
     return _FILMS[contact]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("contact", CONTACTS)
 def test_films_lie_within_the_scatter_of_the_formulas(contact):
     found = film(contact)
@@ -49,6 +50,7 @@ def test_central_over_smallest_film_grows_with_load_and_the_formulas_do_not_know
     assert by_formula[1] == pytest.approx(by_formula[0], rel=0.03)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "angle",
     [pytest.param(30.0, marks=pytest.mark.slow), 60.0, pytest.param(90.0, marks=pytest.mark.slow)],

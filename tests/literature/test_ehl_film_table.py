@@ -52,6 +52,7 @@ def test_films_are_those_to_which_their_grids_go(film: str) -> None:
         assert row[f"{film}_error_percent"] >= 99.0 * value.error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("groups", AGAIN)
 def test_films_solved_again_are_within_the_error_of_their_grid(groups: tuple[float, ...]) -> None:
     row = row_of(*groups)

@@ -173,6 +173,7 @@ def test_march_of_the_store_is_kept(tmp_path):
     assert list((tmp_path / "whole").glob("*part*")) == []
 
 
+@pytest.mark.slow
 def test_march_of_the_store_goes_on_from_its_record(tmp_path, monkeypatch):
     monkeypatch.setattr("docs.ehl.store._EVERY", 2)
     case = FilmCase(nodes=(33, 49))

@@ -46,6 +46,7 @@ def test_lines_at_rest_lie_in_the_printed_ranges(claim: str, step: int) -> None:
     assert line.error.minimum_film < 0.4
 
 
+@pytest.mark.slow
 def test_a_crown_that_begins_late_thins_the_film_and_makes_a_spike() -> None:
     """J6: at step 300 0.21 um without, 0.14 um and a spike with F_o = 0.45 F; 15 %."""
     plain, even = _at_rest("a", 0.0, 300), _at_rest("a", 0.25, 300)
@@ -67,6 +68,7 @@ def _smallest_films(
 
 
 # one design, and the crown that begins late; lines at rest are in the default run for all claims
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "claim", ["J3", *(pytest.param(one, marks=pytest.mark.slow) for one in ("J4", "J5")), "J6"]
 )

@@ -66,6 +66,7 @@ def test_coarse_line_carries_its_load_close_to_the_dry_pressure():
     assert 0.1e-6 < line.minimum_film < 0.25e-6
 
 
+@pytest.mark.slow
 def test_line_with_sharp_ends_carries_its_load():
     """The pair of He 2007 has neither crown nor relief: the line ends at full height."""
     modified = HelicalGearFile.named("he_2007").modified_pair()
@@ -88,6 +89,7 @@ def test_line_with_sharp_ends_carries_its_load():
     assert middle.max() / middle.min() < 1.1
 
 
+@pytest.mark.slow
 def test_interrupted_cycle_gives_the_same_curves(tmp_path):
     film = jamali_2015_film("a", newtonian=True, nodes=(33, 49))
     keep = (300, 302, 304)

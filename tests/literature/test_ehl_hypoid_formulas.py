@@ -29,6 +29,7 @@ def ratios(solved, central, minimum):
     return np.array(both).T / np.array([films["central_film"], films["minimum_film"]])
 
 
+@pytest.mark.slow
 def test_chittenden_at_the_angle_is_within_its_scatter(solved):
     """Entrainment at 62 to 36 degrees to the minor axis, R_y/R_x 160 to 50.
 

@@ -44,6 +44,7 @@ def over_solved(M: float, L: float, alpha: float = TYPICAL) -> float:
     return formula / (fine + (fine - coarse) / 3.0)
 
 
+@pytest.mark.slow
 @each(
     ("M", "L"),
     [

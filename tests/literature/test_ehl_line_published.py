@@ -55,6 +55,7 @@ def test_least_film_of_dowson_and_higginson():
     assert film.minimum_film == pytest.approx(formula, rel=0.10)
 
 
+@pytest.mark.slow
 @each("U", [3e-12, 1e-11, 4e-11])
 @each("W", [5e-5, 2e-4])
 def test_central_film_of_dowson_and_toyoda_is_that_of_an_incompressible_oil(U, W):
@@ -77,6 +78,7 @@ def moes_group(contact: LineProblem, film: float) -> float:
     return film / contact.radius / math.sqrt(2.0 * contact.groups().U)
 
 
+@pytest.mark.slow
 def test_moes_asymptotes():
     # Moes 1992 in the form quoted by Venner and Lubrecht 2000, for an incompressible oil:
     # least film 2.45/M (rigid isoviscous) and 2.05 M^-0.2 (elastic isoviscous),

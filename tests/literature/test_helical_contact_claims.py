@@ -46,6 +46,7 @@ def iso_mesh_stiffness():
     return found.mesh * HE_2007.face_width
 
 
+@pytest.mark.slow
 def test_mean_mesh_stiffness_is_that_of_iso_6336_before_its_reduction_to_measurements():
     # ISO 6336-1 multiplies calculated stiffness by C_M = 0.8 to meet measurements; a calculation
     # should therefore come out at 1/0.8 of c_gamma. Tolerance: the fit's own scatter is +5 to
@@ -64,6 +65,7 @@ def test_mean_mesh_stiffness_of_the_default_body():
     assert 0.8 * float(dataset["K"].mean()) / iso_mesh_stiffness() == pytest.approx(1.0, abs=0.15)
 
 
+@pytest.mark.slow
 def test_stiffness_functions_are_trapezoidal_and_follow_the_contact_length():
     # He et al. 2007 sec. 3: single pairs and their sum are trapezoids that follow the length
     data = he_dataset()
@@ -111,6 +113,7 @@ def harris_map(modified, torques):
     return contact_dataset(modified, settings, cycle)
 
 
+@pytest.mark.slow
 def test_harris_map_of_plain_teeth_rises_and_of_relieved_teeth_has_its_design_torque():
     torques = (25.0, 150.0, 300.0)
     plain = harris_map(ModifiedPair(pair=SPUR), torques)["transmission_error_ptp"].values

@@ -99,6 +99,7 @@ def zone_limits(number, x):
     return None  # zone 8
 
 
+@pytest.mark.slow
 @each("number", [0, 1, 2])
 def test_clipping_gives_the_eight_zones_of_eq_24(number):
     """Phases are dense enough to meet zone 6, a two-hundredth of the mesh."""

@@ -159,6 +159,7 @@ def test_stand_ins_have_the_published_numbers(case, angles_deg):
         assert part.spacing == pytest.approx(1.19 * MICRO, rel=0.005)
 
 
+@pytest.mark.slow
 def test_five_stand_ins_differ_and_can_be_scaled():
     made = [stand_in("A", seed, same_mean=True) for seed in SEEDS]
     assert [profile_statistics(one.fast).Ra for one in made] == pytest.approx([0.31 * MICRO] * 5)

@@ -43,6 +43,7 @@ def settled_from(parameters, x_0, ratio, periods=600, steps=256):
     return 1e-6 * record[:, 1]
 
 
+@pytest.mark.slow
 @each("mismatch", [0.002, 0.003, 0.004])
 def test_5_a_start_in_the_middle_of_the_backlash_parts_the_teeth_at_065(mismatch):
     # the paper's x = 0 is the middle of the backlash; fig. 8b has teeth apart
@@ -68,6 +69,7 @@ def test_5_a_sweep_down_stays_apart_where_a_sweep_up_is_in_contact():
     assert down.separation_share[::-1][1] > 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["two_dof", "one_dof"])
 def test_analysed_mesh_is_bistable_below_resonance_by_loss_of_contact(form):
     problem = PeriodProblem(replace(karagiannis_2012_pair(), form=form), steps_per_mesh_period=256)
@@ -145,6 +147,7 @@ def loaded(values, name):
     return values[name][load > 0.1 * 50.0 / 21.1e-3]
 
 
+@pytest.mark.slow
 def test_11_oil_hardly_changes_the_swing_where_teeth_part():
     # fig. 17: almost identical; also the one motion there, so no jump of branch
     assert np.ptp(lubricated(1.0)[1].x) == pytest.approx(np.ptp(shipped(1.0).x), rel=0.02)
@@ -161,6 +164,7 @@ def test_31_friction_at_100_degc_is_no_statement_of_the_model():
     assert 0.005 < losses[1] / losses[0] - 1.0 < 0.2
 
 
+@pytest.mark.slow
 @each(("ratio", "temperature"), [(1.0, 313.15), (0.3, 373.15)])
 def test_12_13_friction_brakes_the_pinion_a_little_on_every_flank(ratio, temperature):
     torque = lubricated(ratio, temperature)[0]["torque_pinion"]
@@ -168,6 +172,7 @@ def test_12_13_friction_brakes_the_pinion_a_little_on_every_flank(ratio, tempera
     assert np.nansum(torque, axis=0).min() > -0.04 * 50.0
 
 
+@pytest.mark.slow
 def test_23_film_peaks_near_a_micrometre_where_the_load_is_small():
     values, _ = lubricated(1.0)
     film = loaded(values, "film_thickness")

@@ -39,6 +39,7 @@ def verdicts(data, numbers):
     return {number: CLAIMS[str(number)](data).verdict for number in numbers}
 
 
+@pytest.mark.slow
 def test_consistent_equations_confirm_what_the_mechanics_demands(consistent):
     # frequencies, road load, preload and film laws, cage lines, no separation
     wanted = dict.fromkeys((32, 33, 34, 35, 40, 41, 44, 46, 47), HOLDS)
@@ -55,6 +56,7 @@ def test_bearing_lines_appear_with_the_printed_signs_only(consistent):
     assert not consistent["separation"].values.any()
 
 
+@pytest.mark.slow
 def test_printed_friction_loses_less_because_it_lacks_the_temperature_coefficient(consistent):
     # at 30 km/h both motions are smooth, so that only the friction differs
     as_printed = sweep(SPEEDS[:1], **PRINTED)
@@ -65,6 +67,7 @@ def test_printed_friction_loses_less_because_it_lacks_the_temperature_coefficien
     assert (theirs > 0.6 * ours).all()
 
 
+@pytest.mark.slow
 def test_preload_costs_efficiency_through_the_bearings(consistent):
     axle = consistent["efficiency_axle"].values
     assert (axle[1] < axle[0]).all()

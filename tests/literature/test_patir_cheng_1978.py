@@ -37,6 +37,7 @@ def test_fits_are_refused_outside_what_they_were_made_for():
         shear_flow_factor(np.array(1.0), 2.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("peklenik", [1.0, 1.0 / 3.0])
 def test_own_solutions_lie_near_the_fits(peklenik: float):
     # Another autocorrelation (Gaussian for linear), resolved heights, means of three small patches
@@ -57,6 +58,7 @@ def test_own_solutions_lie_near_the_fits(peklenik: float):
         assert (found.shear_x.values > isotropic).all()
 
 
+@pytest.mark.slow
 def test_separation_of_gaussian_patches_falls_with_the_logarithm_of_the_load():
     # p ~ exp(-h/(0.48 sigma)) in [almqvist_2011], from theory and solutions of their own
     patches = gaussian_patches(4e-7, 2e-5, 2e-5, [1, 2], nodes=96, nodes_per_length=9)

@@ -178,6 +178,7 @@ def test_tait_s_oil_is_softer_where_it_is_warmer():
     assert density(warm, 5e8) > density(cold, 5e8)
 
 
+@pytest.mark.slow
 @each("law", LAWS)
 @each("film", [line_film, point_film])
 def test_films_answer_to_the_alpha_of_films_whatever_the_law(law, film):

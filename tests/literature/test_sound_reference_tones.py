@@ -69,6 +69,7 @@ def test_roughness_and_fluctuation_strength_vanish_for_a_steady_tone():
 
 # Two faint orders of 40 dB beside one of 72 dB at 414 Hz: the one next to it lies within its
 # critical band and is masked, the one four octaves up (6.6 kHz) is not.
+@pytest.mark.slow
 def test_the_order_beside_a_loud_one_is_masked_and_the_far_one_is_heard():
     loud, faint = (20e-6 * 10.0 ** (level / 20.0) * np.sqrt(2.0) for level in (72.0, 40.0))
     orders = {13.0: loud, 15.0: faint, 104.0: faint}

@@ -44,6 +44,7 @@ def onset(sweep):
     return RATIOS[np.argmax(sweep.separation_share > 0.0)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mismatch", MISMATCHES)
 def test_varying_radii_swing_more_over_a_wide_band(mismatch, one, two):
     """Claim 4: all of 0.6 to 1.4 of the natural frequency."""
@@ -51,6 +52,7 @@ def test_varying_radii_swing_more_over_a_wide_band(mismatch, one, two):
     assert np.all(two[mismatch].peak_to_peak[band] > one.peak_to_peak[band])
 
 
+@pytest.mark.slow
 def test_separation_starts_at_lower_speed_with_varying_radii(one, two):
     """Claim 5: 0.65 within 0.1 at 0.4 %, absent there at constant radii; earlier with more."""
     onsets = [onset(two[mismatch]) for mismatch in (0.004, 0.003, 0.002)]

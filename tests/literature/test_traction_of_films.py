@@ -27,6 +27,7 @@ SMOOTH = SurfaceParameters(sigma=1e-9, xi_beta_sigma=0.05, sigma_over_beta=0.001
 HERTZ_PRESSURE, RADIUS, MODULUS = 1e9, 0.02, 227e9
 
 
+@pytest.mark.slow
 @each(
     ("eta0", "alpha", "speed", "ratio", "load"),
     [(0.01, 1.5e-8, 1.0, 1.0, 100.0), (0.02, 1.3e-8, 1.0, 2.0, 200.0)],
@@ -83,6 +84,7 @@ def traction(name: str, speed: float, slide_roll: float) -> float:
     return warm.film.friction_coefficient
 
 
+@pytest.mark.slow
 @each("speed", [2.0, 8.0])
 @each("slide_roll", [0.02, 0.1, 0.3])
 def test_naphthenic_oil_has_more_traction_than_paraffinic_and_that_more_than_pao(speed, slide_roll):

@@ -208,6 +208,7 @@ def test_fmpy_runs_both_archives_alike(archives: dict[str, Path]) -> None:
     assert len(runs[0]) == 65
 
 
+@pytest.mark.slow
 def test_the_sources_compile_without_a_warning(tmp_path: Path) -> None:
     (tmp_path / "fmi").mkdir()
     headers = {f"fmi/{name}": text for name, text in fmi_headers().items()}

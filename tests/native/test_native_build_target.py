@@ -26,6 +26,7 @@ print(intermediate_code(entry, types.int64(pointer, pointer), "entry"))
 """
 
 
+@pytest.mark.slow
 def test_vectors_are_those_of_the_level_not_of_this_machine() -> None:
     done = subprocess.run(
         [sys.executable, "-c", CODE], cwd=ROOT, capture_output=True, text=True, check=True

@@ -327,6 +327,7 @@ def _memory() -> int:
     return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
 
 
+@pytest.mark.slow
 def test_a_thousand_instances_leave_no_memory_behind(library: NativeLibrary) -> None:
     _many(library, 200)
     gc.collect()

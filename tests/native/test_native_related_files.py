@@ -51,6 +51,7 @@ def test_the_same_model_gives_the_same_bytes() -> None:
     assert described(MODEL, ARCHIVE, run_with(pinion__speed=2.0)) != FILES
 
 
+@pytest.mark.slow
 def test_a_build_repeats_its_bytes_and_describes_both_versions(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -111,6 +112,7 @@ def test_the_default_set_holds_every_parameter_at_its_start() -> None:
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_meta_data_obey_the_schema_of_srmd() -> None:
     assert srmd_complaints(FILES[META_DATA]) == []
     assert srmd_complaints(FILES[META_DATA].replace(b"keyword=", b"key=")) != []

@@ -195,6 +195,7 @@ def test_time_can_be_read_in_fmi_3(mass: NativeInstance) -> None:
         assert mass.set_raw("Real", [time], [1.0]) == ERROR
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [2**63 - 1, -(2**63), 2**31, 0])
 def test_an_enumeration_of_any_64_bits_is_refused_at_the_start(
     mass: NativeInstance, value: int

@@ -100,6 +100,7 @@ def energy_out_of_nothing(mesh, backlash):
     return np.max(np.abs(imbalance)), np.count_nonzero(np.diff(states[:, SIDE]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "backlash", [150e-6, *(pytest.param(b, marks=pytest.mark.slow) for b in (20e-6, 2e-6)), 0.0]
 )
@@ -154,6 +155,7 @@ def test_teeth_beyond_the_middle_of_the_gap_change_side_without_touching(x, side
     assert -20.0 <= found <= 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backlash", [150e-6, 20e-6])
 def test_both_gaps_follow_from_rotation_and_displacements_alone(backlash):
     """x + b = R_p theta + n.(u_p - u_g) - e on either side, with one theta: nothing creeps."""
@@ -234,6 +236,7 @@ def test_coast_data_equal_to_the_drive_data_change_nothing():
     np.testing.assert_allclose(both / scale, one_sided / scale, rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_teeth_that_touch_between_two_evaluations_of_friction_meet_no_leftovers():
     """Coefficients of friction kept from elsewhere once threw the teeth 0.1 m apart."""
     axle = axle_of(TWO_SIDED, steps=22)

@@ -58,6 +58,7 @@ def test_a_map_turns_one_ball_into_another(tmp_path):
     np.testing.assert_allclose(one.pressure, other.pressure, atol=1e-5 * other.maximum_pressure)
 
 
+@pytest.mark.slow
 def test_a_ridge_along_the_motion_thins_the_film_on_its_crest_alone():
     base = {
         **SHARED,

@@ -71,6 +71,7 @@ def test_mass_conserving_rupture_keeps_the_flooded_film_and_the_flow():
     assert 0.3 < kept.void.max() < 1.0
 
 
+@pytest.mark.slow
 def test_starved_inlet_gives_the_film_that_the_supply_allows():
     flooded = solve_line(THESIS, LineSettings(nodes=501))
     gap = flooded.film[0]

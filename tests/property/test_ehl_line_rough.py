@@ -44,6 +44,7 @@ def march_rough(average: float, steps: int, settings: LineSettings):
     return [march.step(throw=False) for _ in range(steps)]
 
 
+@pytest.mark.slow
 def test_rough_film_that_stays_whole_is_solved_in_every_step():
     # 0.1 um a surface under a film of 0.24 um
     films = march_rough(0.1e-6, 250, LineSettings(nodes=251))
@@ -59,6 +60,7 @@ def test_rough_film_that_stays_whole_is_solved_in_every_step():
     assert max(film.maximum_pressure for film in films) > 1.2e9
 
 
+@pytest.mark.slow
 def test_rough_bodies_that_touch_carry_the_load_and_say_where():
     films = march_rough(0.5e-6, 200, LineSettings(nodes=251))
     assert all(film.converged for film in films)
@@ -94,6 +96,7 @@ def replace_storage(coefficients):
     return coefficients._replace(storage=2.0, weight=0.5)
 
 
+@pytest.mark.slow
 def test_contact_can_be_forbidden():
     films = march_rough(0.5e-6, 200, LineSettings(nodes=251, contact_film=0.0))
     assert not any(film.contact.any() for film in films)

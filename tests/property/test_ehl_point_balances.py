@@ -16,6 +16,7 @@ from tests.helpers.ehl_point_cases import flow_out, moes_contact
 TIGHT = PointSolverSettings(tolerance=1e-10, load_tolerance=1e-10, wedge="central")
 
 
+@pytest.mark.slow
 def test_oil_and_load_are_balanced() -> None:
     problem = moes_contact(20.0, 5.0, nodes=(65, 65))
     solution = solve_point_contact(problem, TIGHT)
@@ -60,6 +61,7 @@ def test_the_film_is_symmetric_about_its_motion() -> None:
     assert (solution.pressure >= 0.0).all()
 
 
+@pytest.mark.slow
 def test_equal_groups_give_equal_films_in_other_units() -> None:
     problem = moes_contact(20.0, 5.0, nodes=(33, 33))
     oil = problem.lubricant

@@ -17,6 +17,7 @@ from tests.helpers.ehl_point_cases import moes_contact, moes_film, radius_ratio,
 NODES = (65, 65)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ellipticity", "M", "L", "slide_roll"),
     [
@@ -51,6 +52,7 @@ def test_extreme_contacts_converge_in_the_stencil_that_is_asked_for(
     assert solution.load == pytest.approx(problem.load, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_limited_faces_vanish_on_a_grid_that_resolves_the_inlet() -> None:
     problem = moes_contact(1000.0, 0.0, nodes=NODES)
     coarse = solve_point_contact(problem).outcome
@@ -59,6 +61,7 @@ def test_limited_faces_vanish_on_a_grid_that_resolves_the_inlet() -> None:
     assert fine.limited == 0.0
 
 
+@pytest.mark.slow
 def test_a_sheared_inlet_is_right_on_a_grid_where_viscosity_multiplies_from_node_to_node() -> None:
     problem = sliding_along(
         moes_contact(200.0, 20.0, nodes=NODES, radius_ratio=radius_ratio(0.5)), 1.0
@@ -91,6 +94,7 @@ def test_limits_act_where_the_film_halves_in_a_cell_and_nowhere_else() -> None:
         assert limited_faces(crossed, pressure, mass)[0] == count
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ellipticity", "M", "L", "allowed"),
     [

@@ -68,6 +68,7 @@ def test_mass_is_balanced_over_any_set_of_nodes() -> None:
     assert abs(pumped.sum()) < 1e-12 * np.abs(pumped).sum()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [0.0, 0.6, pytest.param(0.5 * math.pi, marks=pytest.mark.slow)])
 def test_the_film_turns_with_its_motion(turn: float) -> None:
     forward = sliding_contact(0.4, turn, (33, 29), radius_ratio=2.0, angle=0.6)
@@ -88,6 +89,7 @@ def test_the_film_turns_with_its_motion(turn: float) -> None:
     assert np.abs(second.film / first.film.T[::-1] - 1.0).max() < 1e-6
 
 
+@pytest.mark.slow
 def test_the_film_is_mirrored_with_its_motion() -> None:
     forward = sliding_contact(0.4, 0.7, nodes=(33, 33))
     (u, v), (a, b) = forward.entrainment, forward.sliding

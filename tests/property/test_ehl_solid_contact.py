@@ -65,6 +65,7 @@ def test_a_film_thicker_than_the_layer_does_not_know_it() -> None:
     assert "touch" not in layered.outcome.sentence
 
 
+@pytest.mark.slow
 def test_oil_and_load_are_balanced_between_touching_solids() -> None:
     problem = _contact(0.03, 30e-9)
     settings = PointSolverSettings(tolerance=1e-10, load_tolerance=1e-10, wedge="central")
@@ -90,6 +91,7 @@ def test_oil_and_load_are_balanced_between_touching_solids() -> None:
     assert f"carry {100.0 * touch.share:.2g} % of the load" in solution.outcome.sentence
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("thickness", [pytest.param(3e-9, marks=pytest.mark.slow), 30e-9])
 def test_without_speed_the_solids_carry_the_dry_contact(thickness: float) -> None:
     problem = _contact(1e-4, thickness)
@@ -104,6 +106,7 @@ def test_without_speed_the_solids_carry_the_dry_contact(thickness: float) -> Non
     assert solution.maximum_pressure == pytest.approx(dry.pressure.max(), rel=softness)
 
 
+@pytest.mark.slow
 def test_a_thin_film_of_a_helical_pair_touches_and_goes_on() -> None:
     # a hundredth of the thesis' speed: films of about 6 nm; layers of 3, 10 and 30 nm
     shares = []

@@ -43,6 +43,7 @@ def test_a_larger_gear_is_the_same_gear_enlarged(factor, role):
         np.testing.assert_allclose(factor * large.curvature, small.curvature, rtol=1e-7, atol=1e-6)
 
 
+@pytest.mark.slow
 @settings(max_examples=5, deadline=None)
 @given(phase=st.floats(-40.0, 40.0))
 def test_the_basic_cradle_angle_is_a_phase_only(phase):

@@ -58,6 +58,7 @@ def closing_of(cycle, rotation):
     return ARM * (rotation - cycle["unloaded_rotation"].min())
 
 
+@pytest.mark.slow
 def test_at_its_own_phases_it_carries_the_torque_at_the_static_closing(case):
     _, cycle, mesh = case
     for n, phase in enumerate(SETTINGS.phases):
@@ -68,6 +69,7 @@ def test_at_its_own_phases_it_carries_the_torque_at_the_static_closing(case):
             assert stiff == pytest.approx(cycle["tangent"][n, level], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_between_its_phases_the_closing_is_within_two_percent(case):
     # entry, exit and their corners are kinks, which straight lines between phases cut: half of a
     # step of 1/24 is 2 % of a period, over which a line takes up 2 % of the load
@@ -85,6 +87,7 @@ def test_between_its_phases_the_closing_is_within_two_percent(case):
     assert abs(np.mean(misfits)) < 0.005
 
 
+@pytest.mark.slow
 def test_between_its_torques_the_springs_meet_the_contact(case):
     # tangents at 200 N.m unloaded to 140 N.m: contact softens by the logarithm of the load, 2 %
     # of the closing here, more where relief comes free

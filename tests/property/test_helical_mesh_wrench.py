@@ -184,6 +184,7 @@ def test_damping_turns_against_the_relative_rotation_and_never_makes_flanks_adhe
             assert fast == pytest.approx(-wrench[0] if limited else expected * -1e6, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_damping_is_continuous_as_points_begin_to_touch() -> None:
     """Over the penetration: no jump at first contact, and the share of stiffness that touches."""
     parameters = replace(he_2007_pair(0.0), contact="one_sided", line_divisions=8)

@@ -45,6 +45,7 @@ def _sweep(problem, ratios, periods=200):
     return states
 
 
+@pytest.mark.slow
 def test_separation_bends_the_resonance_down_and_sweeps_jump_at_its_folds():
     problem = SeparationProblem(separating_pair())
     unit = problem.natural_speed
@@ -93,6 +94,7 @@ def test_overlap_keeps_the_helical_pair_in_contact_where_the_spur_pair_parts():
     assert swings["spur"] > 3.0 * swings["helical"]
 
 
+@pytest.mark.slow
 def test_the_spur_pair_doubles_its_period_on_the_way_down():
     """Found on the branch, followed over two periods, and met by marching."""
     parameters = separating_pair(zeta=0.05, pair=spur_geometry())
@@ -113,6 +115,7 @@ def test_the_spur_pair_doubles_its_period_on_the_way_down():
         assert (moved < 1e-4) == repeats
 
 
+@pytest.mark.slow
 def test_what_damping_takes_the_moving_mesh_gives():
     """Over a period constant torques do no work on psi; only the stiffness's change does."""
     problem, speed, motion = separated_motion(separating_pair(), steps_per_mesh_period=512)

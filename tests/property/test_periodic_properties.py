@@ -25,6 +25,7 @@ def duffing_branch(heading, **changes):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes", [{}, {"step": 0.01, "largest_step": 0.03}, {"turn": 0.05}, {"scale": 0.3}]
 )

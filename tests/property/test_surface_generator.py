@@ -31,6 +31,7 @@ ASKED = RoughnessRequest(
 MOMENT = 1.001e-3
 
 
+@pytest.mark.slow
 @each("seed", range(3))
 @each(("skewness", "kurtosis"), [(0.0, 3.0), (-0.7, 4.0), (0.8, 3.5)])
 def test_a_profile_has_the_statistics_asked_of_every_seed(seed, skewness, kurtosis):
@@ -77,6 +78,7 @@ def test_the_same_seed_makes_the_same_bits():
     assert (one.surface.height == two.surface.height).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lay", [0.0, 0.3, -0.5])
 def test_a_map_correlates_as_asked_across_and_along_its_lay(lay):
     asked = replace(

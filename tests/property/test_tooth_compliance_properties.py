@@ -71,6 +71,7 @@ def test_the_mirrored_tooth_swaps_its_flanks(flanks):
     assert np.abs(left.image / right.image - 1.0).max() > 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [{"base_depth": 14e-3}, {"neighbour_pitches": 1.0}])
 def test_a_larger_held_block_is_more_compliant(flanks, more):
     """The smaller block is the larger one with more of it held, so its energy is lower."""

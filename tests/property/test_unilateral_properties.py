@@ -100,6 +100,7 @@ def test_more_torque_means_more_rotation_and_energy(
     assert torque * turned < work < factor * torque * turned
 
 
+@pytest.mark.slow
 @each("seed", range(6))
 def test_energy_never_rises_from_one_iteration_to_the_next(seed: int) -> None:
     """Runs cut after n iterations are prefixes of each other: equal input gives equal bits."""

@@ -97,6 +97,7 @@ MOVES = {
 }
 
 
+@pytest.mark.slow
 @each(("side", "what"), MOVES)
 def test_contact_moves_steadily_with_displacement(side, what):
     """Towards the tip on both flanks, towards opposite ends of the face on drive and coast."""
@@ -157,6 +158,7 @@ def test_contact_ratio_counts_the_pitches_on_both_teeth(side):
     assert contact_ratio(pair) == pytest.approx(pitches, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("side", SIDES)
 def test_pattern_shrinks_with_neighbours(side):
     ease = shipped_ease_off(side)
@@ -176,6 +178,7 @@ def test_pattern_shrinks_with_neighbours(side):
     assert 0.4 < ease.s[np.nonzero(marked)[0]].mean() < 0.8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("side", SIDES)
 def test_path_of_contact_runs_inside_the_pattern(side):
     pair = shipped_pair(side)

@@ -179,6 +179,7 @@ def test_every_wrong_value_is_refused_with_a_reason(words, run, tmp_path):
     check_wrong_values(words, run, tmp_path, 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", COMMANDS[:-1], ids=" ".join)
 def test_a_folder_that_cannot_be_written_is_refused_in_plain_words(words, run, tmp_path):
     for out in ("notes.txt", "notes.txt/deeper", "/proc/nothing/here"):
@@ -292,6 +293,7 @@ def test_speed_limits_are_those_of_the_library(run):
 SHOWING = (("axle", "show"), ("oil", "show"), ("oil", "fit"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", SHOWING, ids=" ".join)
 def test_what_shows_or_fits_refuses_every_wrong_value_with_a_reason(words, run, tmp_path):
     measured = tmp_path / "measured.csv"

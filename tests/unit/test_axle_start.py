@@ -110,6 +110,7 @@ def test_the_step_is_tied_to_the_highest_mode_that_lapack_finds(equations, torqu
     assert axle.highest_frequency == pytest.approx(highest, rel=1e-11)
 
 
+@pytest.mark.slow
 def test_drag_at_the_start_is_that_of_each_roller_by_itself():
     """Nodes of films, which steps keep, differ by 1e-4 here, and their slopes by far more."""
     axle = started(60.0, speed=800.0, bearing_torque_loss="solved_films")

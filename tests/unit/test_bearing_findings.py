@@ -58,6 +58,7 @@ ERRORS = [
 ]
 
 
+@pytest.mark.slow
 def test_bearing_has_its_known_key_numbers_findings_and_table(a_bearing):
     # means over 2, 1, 4 and 2 N.m and over 0.4 times these
     expected = [

@@ -113,6 +113,7 @@ def test_nothing_is_computed_when_one_condition_is_out_of_range(wrong, monkeypat
         run_bearing(FILE, BearingSettings(**fields))
 
 
+@pytest.mark.slow
 def test_command_writes_each_part_on_its_own_line(tmp_path, caplog):
     path = tmp_path / "my_bearing.toml"
     shown = CliRunner().invoke(app, ["bearing", "--example"])

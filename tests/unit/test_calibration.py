@@ -136,6 +136,7 @@ def test_an_error_that_points_have_in_common_is_predicted_for_the_others():
     assert drawn.mean() == pytest.approx(1.2, abs=0.001)  # the offset of 0.2, and not 9.9
 
 
+@pytest.mark.slow
 def test_bars_of_twenty_sets_hold_what_was_put_in():
     rng = np.random.default_rng(11)
     x = np.linspace(0.2, 1.0, 12)
@@ -164,6 +165,7 @@ def test_bars_of_twenty_sets_hold_what_was_put_in():
     assert 18 <= half <= 42  # 30 are expected, three deviations are 12
 
 
+@pytest.mark.slow
 def test_a_made_up_axle_comes_back_and_an_input_without_influence_is_not_seen():
     points = measured_at([300, 1000, 2000, 4000], [0, 40, 100], [40, 70, 100])
     inputs = ("churning", "bearing_drag", "roughness", "flank_rolling")  # it has no rolling loss
@@ -214,6 +216,7 @@ def test_bars_of_made_up_axles_hold_what_was_put_in():
     assert 0.8 <= np.mean(held) <= 0.97  # of the band of 90 %, 54 points
 
 
+@pytest.mark.slow
 def test_churning_seals_and_drag_are_confounded_unless_speed_and_temperature_vary():
     inputs = ("churning", "seals", "bearing_drag")
     put_in = {"churning": 1.5, "seals": 1.2}
@@ -236,6 +239,7 @@ def test_churning_seals_and_drag_are_confounded_unless_speed_and_temperature_var
     assert np.all(contraction > 0.5)
 
 
+@pytest.mark.slow
 def test_the_drag_of_an_axle_is_known_no_better_than_gain_and_model_allow():
     bare = mohammadpour_2015_axle()  # without load 97 % of its loss is bearing drag
     points = losing(measured_at([1000, 2000, 4000], [0], [30, 60, 100]), bare, {}, deviation=1e-3)
@@ -249,6 +253,7 @@ def test_the_drag_of_an_axle_is_known_no_better_than_gain_and_model_allow():
         assert 0.5 * np.log(one.factor) * sd == pytest.approx(gain + model_error, rel=0.1)
 
 
+@pytest.mark.slow
 def test_runs_of_the_axle_are_kept_and_not_computed_twice(tmp_path, monkeypatch):
     points = losing(measured_at([500, 2000], [0, 60], [40, 80]), axle(), {})
     settings = CalibrationSettings(axle=axle(), measured=points, inputs=("roughness",))
@@ -292,6 +297,7 @@ def test_a_point_beyond_the_axle_is_refused_by_its_line():
         run_calibration(settings)
 
 
+@pytest.mark.slow
 def test_the_command_writes_an_axle_file_and_values_that_repeat_the_fit(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(AXLE)

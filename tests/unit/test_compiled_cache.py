@@ -99,6 +99,7 @@ def _run(folder: Path) -> tuple[list[float], list[list[int]]]:
     return [float(v) for v in values.split()], [[int(c) for c in line.split()] for line in counts]
 
 
+@pytest.mark.slow
 def test_a_constant_in_another_file_reaches_compiled_callers(tmp_path: Path) -> None:
     _package(tmp_path)
     assert _run(tmp_path) == ([2.0, 20.0], [[0, 1], [0, 1]])
@@ -284,6 +285,7 @@ def test_garbage_is_looked_for_seldom_during_compilation_alone(usual, monkeypatc
     assert found[0] == (usual if usual[0] != 700 else (100_000, 10, 10))
 
 
+@pytest.mark.slow
 def test_linked_code_is_read_from_disk_when_its_caller_is_compiled_anew(
     tmp_path: Path, monkeypatch: Any
 ) -> None:
@@ -376,6 +378,7 @@ def _with_pass(code: str) -> str:
     return "\n".join(kept)
 
 
+@pytest.mark.slow
 def test_the_code_of_the_core_is_complete() -> None:
     folder = Path(str(gearlube_core.__file__)).parent
     for path in [*folder.glob("kernels/*.py"), *folder.glob("*/h*.py"), *folder.glob("oil/*.py")]:

@@ -30,11 +30,12 @@ def check(family, **settings):
         )  # fmt: skip
 
 
+@pytest.mark.slow  # by default the native FMUs are compared with the models, see test_native_axle
 @pytest.mark.parametrize("family", FAMILIES)
 def test_compiled_entries_equal_their_source(family):
     check(family, **({"of_fmus": False} if family == "axle" else {}))
 
 
-@pytest.mark.slow  # the native FMU is by default compared with the model, see test_native_axle
+@pytest.mark.slow
 def test_what_fmus_alone_call_equals_its_source():
     check("axle", of_fmus=True)

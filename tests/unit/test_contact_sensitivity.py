@@ -42,6 +42,7 @@ def found(folder):
         return study.run_sensitivity(shipped_file(), SETTINGS, folder=folder, jobs=1)
 
 
+@pytest.mark.slow
 def test_every_quantity_has_its_rate_by_every_parameter_and_nothing_is_lost(found):
     for name in UNITS:
         assert found[f"{name}_rate"].dims == ("side", "parameter", *found[name].dims[1:])
@@ -53,6 +54,7 @@ def test_every_quantity_has_its_rate_by_every_parameter_and_nothing_is_lost(foun
     assert abs(found["share_rate"].sum("pair")).max() < 1e-9 * abs(found["share_rate"]).max()
 
 
+@pytest.mark.slow
 def test_rows_are_changes_by_the_tolerance(found):
     rows = study.sensitivity_rows(found)
     assert [(row.parameter, row.side) for row in rows] == [

@@ -52,6 +52,7 @@ def test_co2mpas_gets_ratio_and_efficiency_by_its_names() -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_fastsim_takes_the_file_and_divides_in_driving_and_multiplies_in_braking() -> None:
     fastsim = pytest.importorskip("fastsim")
     yaml = pytest.importorskip("yaml")

@@ -136,6 +136,7 @@ def cut(path):
 DAMAGES = {"flipped": flip, "cut": cut, "gone": Path.unlink, "empty": lambda p: p.write_bytes(b"")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize("file", BLOCK)
 def test_a_damaged_block_is_refused_by_name_and_computed_again(file, damage, tmp_path, caplog):

@@ -181,10 +181,12 @@ def out(tmp_path_factory):
     return folder / "out"
 
 
+@pytest.mark.slow
 def test_the_report_says_what_was_taken_as_rest(out):
     assert "1 of 40 rows have a speed from -0.05 km/h to 0" in (out / "report.html").read_text()
 
 
+@pytest.mark.slow
 def test_the_files_hold_the_same_cycle(out):
     with xr.open_dataset(out / "drive_cycle.nc", engine="scipy") as found:
         assert not without_units(found)
@@ -247,6 +249,7 @@ def test_the_command_refuses_an_unknown_cycle_and_leaves_no_folder(tmp_path, cap
     assert not folder.exists()
 
 
+@pytest.mark.slow
 def test_the_error_bars_of_a_cycle_are_those_of_drawn_axles():
     """Each draw computed again: the axle changed, its map again, its sources scaled."""
     from gearlube.studies.drive_cycle.loss_field import at_temperatures, demand_of, losses_along

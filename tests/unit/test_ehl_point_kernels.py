@@ -186,6 +186,7 @@ def test_cycle_is_exact_where_lines_and_the_coarse_grid_share_the_solution() -> 
     assert found[0].all()
 
 
+@pytest.mark.slow
 def test_one_cycle_removes_half_of_a_rough_residual() -> None:
     problem = moes_contact(100.0, 10.0, nodes=(129, 129), oil_beyond=False)
     solution = solve_point_contact(problem)
@@ -238,6 +239,7 @@ def lobes() -> PointContactProblem:
     return moes_contact(100.0, 0.0, nodes=(65, 65), radius_ratio=0.0894)
 
 
+@pytest.mark.slow
 def test_a_film_too_thin_for_second_order_is_limited_at_single_faces_and_says_so() -> None:
     outcome = solve_point_contact(lobes()).outcome
     assert outcome.converged

@@ -209,6 +209,7 @@ def test_spoilt_pressure_says_nothing():
     assert border_pressure(np.full((9, 9), np.nan), np.ones((9, 9))).sentence == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("velocity", "kept", "end"),
     [
@@ -238,6 +239,7 @@ def test_point_contact_cut_behind_its_middle_says_so(velocity, kept, end):
     assert "Widen" in cut.outcome.sentence
 
 
+@pytest.mark.slow
 def test_steep_relief_is_pushed_out_of_the_domain_of_the_thesis():
     # Jamali 2015 sec. 5.4: k = 0.02 at step 500; his domain ends 1.775 semi-widths behind the line
     film = jamali_2015_film("a", k=0.02, nodes=(49, 97))

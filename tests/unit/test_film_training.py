@@ -194,6 +194,7 @@ def test_training_resumes_and_keeps_failures(monkeypatch, tmp_path):
         train(replace(plan, box=7), tmp_path, pool=pool)
 
 
+@pytest.mark.slow
 def test_a_fit_finds_a_smooth_film_at_the_limit_of_the_grid(rows, monkeypatch):
     processes = []
 
@@ -248,6 +249,7 @@ def test_conformal_bounds_cover_what_they_promise_on_average():
     assert 0.94 < np.mean(held) < 0.97
 
 
+@pytest.mark.slow
 def test_net_gradients_lead_to_a_net_that_agrees():
     rng = np.random.default_rng(1)
     x = rng.uniform(-1.0, 1.0, (150, len(contact_groups(SMALL.tasks()[0].contact))))

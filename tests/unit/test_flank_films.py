@@ -100,6 +100,7 @@ def test_pairs_follow_each_other_a_mesh_period_apart_and_films_are_thin(films):
     assert (film < 5e-6).all()
 
 
+@pytest.mark.slow
 def test_the_animation_has_a_picture_for_each_time_and_is_small(films, contact, tmp_path):
     path = animate_films(films, DrawnTooth.of_dataset(contact), tmp_path)
     with Image.open(path) as picture:

@@ -27,6 +27,7 @@ def store(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
     seen, rest = [], Reports()
 
@@ -51,6 +52,7 @@ def test_a_finished_run_computes_nothing(store, monkeypatch):
     assert again["line_load"].shape == (5, 2, 5, 4)
 
 
+@pytest.mark.slow
 def test_other_teeth_or_reliefs_are_not_taken_from_the_store(store):
     for other in ((PLAIN, stiff_teeth(110e9)), (relieved(HE_2007, 1e-5, 1e-3), TEETH)):
         done = Reports()

@@ -41,6 +41,7 @@ def with_formulas():
     return settings()
 
 
+@pytest.mark.slow
 def test_loss_of_the_study_is_that_of_the_model_with_its_bound():
     solved = film_dataset(with_films(), with_films().constant_mesh())
     formula = film_dataset(with_formulas(), with_formulas().constant_mesh())
@@ -139,6 +140,7 @@ def test_a_draw_that_leaves_the_film_model_does_not_mix_the_models(monkeypatch):
     assert high == pytest.approx(other, rel=0.05)
 
 
+@pytest.mark.slow
 def test_periodic_response_has_the_friction_of_the_model():
     def rms(one, friction):
         response = periodic_response(replace(one.parameters(), friction=friction), 104.7)

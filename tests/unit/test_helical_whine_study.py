@@ -38,6 +38,7 @@ def dataset():
         return study.run_whine(FILE, SETTINGS)
 
 
+@pytest.mark.slow
 def test_far_below_resonance_the_error_is_the_static_one(dataset):
     static = dataset["loaded_error"].values
     wave = 2.0 / 7 * np.exp(-2j * np.pi * np.arange(7) / 7)
@@ -52,6 +53,7 @@ def test_inertias_are_those_of_the_gear_file_unless_given():
     assert replace(SETTINGS, gear_inertia=0.5).inertias(FILE) == (own[0], 0.5)
 
 
+@pytest.mark.slow
 def test_the_report_says_that_the_pair_is_helical_and_what_moves_it(dataset):
     html = report_html(whine_report(dataset, "gearlube whine"))
     for part in ("Whine of the helical pair he_2007", "reliefs and slopes change", "crown"):

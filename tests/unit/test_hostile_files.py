@@ -80,6 +80,7 @@ def bomb(tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "command"),
     [
@@ -96,6 +97,7 @@ def test_a_command_refuses_an_archive_that_unpacks_to_gigabytes(
     assert "got 604 MB" in caplog.text or "claims arrays of 604 MB" in caplog.text
 
 
+@pytest.mark.slow
 def test_an_fmu_that_unpacks_to_gigabytes_is_refused(bomb):
     with pytest.raises(ParameterError, match="unpack to at most 500 MB"), unpacked(bomb):
         pass
@@ -179,6 +181,7 @@ NPZ = {
 }
 
 
+@pytest.mark.slow
 @each("case", [*ARRAYS, *NPZ])
 def test_npz_files_that_claim_or_break_are_refused(case, tmp_path):
     path = tmp_path / "map.npz"

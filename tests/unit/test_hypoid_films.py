@@ -86,6 +86,7 @@ def test_at_rest_it_is_the_film_of_the_steady_solver():
 SLIDINGS = [(1.2, 0.9), (-0.7, 1.4), (0.0, 1.6)]  # to both sides of the minor axis and across it
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sliding", SLIDINGS)
 def test_an_eyring_film_in_time_slides_at_any_angle_as_the_steady_one(sliding):
     psi = math.radians(50.0)

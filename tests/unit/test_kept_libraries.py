@@ -193,6 +193,7 @@ def test_a_kept_library_is_read_as_it_was(tmp_path: Path) -> None:
     assert kept_library(tmp_path / "new", "any") == b"\0library"
 
 
+@pytest.mark.slow
 def test_axles_of_other_numbers_and_oils_have_one_library() -> None:
     shipped = native_model(axle_definition(None, None))
     own = native_model(axle_definition(None, ROOT / "examples" / "my_axle.toml"))

@@ -275,6 +275,7 @@ def test_a_contact_on_both_grids_takes_its_own_way_to_the_limit():
     assert np.isnan(steps[2]).all()
 
 
+@pytest.mark.slow
 def test_a_process_for_rough_values_learns_a_bend_better():
     rng = np.random.default_rng(5)
     drawn = HELICAL_LINE.box_contacts(HELICAL_LINE.box, 260, 3)

@@ -87,6 +87,7 @@ def traces(chart):
     return {one.name: one.marker.color if one.type == "bar" else one.fillcolor for one in filled}
 
 
+@pytest.mark.slow
 @each("sources", [SOURCES, FEWER])
 @each(
     ("colours", "data", "draw"),

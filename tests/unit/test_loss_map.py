@@ -57,12 +57,14 @@ def found(folder):
     return gl.run_loss_map(settings, folder=folder)
 
 
+@pytest.mark.slow
 def test_the_sources_are_the_whole(found):
     turning = found["speed"] * np.pi / 30.0
     whole = (found["loss_torque"] * turning).transpose(*found["loss"].dims[:-1])
     assert found["loss"].sum("source").values == pytest.approx(whole.values, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_mesh_is_not_damped_in_steady_running(found):
     # the shafts do not vibrate: 1e-28 W was rounding, and stood so in map.csv
     assert np.all(found["loss"].sel(source="mesh_damping").values == 0.0)
@@ -184,6 +186,7 @@ def test_measured_torques_narrow_the_bar_of_palmgrens_law_alone():
         drag_of("aihara_1987", calibrated_bearings=True)
 
 
+@pytest.mark.slow
 def test_the_command_tells_a_calibrated_map_from_another(tmp_path):
     words = ["map", "--torques", "80", "--speeds", "1000", "2000", "--temperatures", "60"]
     width = {}
@@ -307,6 +310,7 @@ def test_matlab_reads_breakpoints_and_table(found, folder):
     assert read["torque_loss_Nm"][2, 3, 1] == float(expected)
 
 
+@pytest.mark.slow
 def test_a_point_drawn_by_power_laws_has_the_bars_of_the_map():
     """`drawn_losses` of a sweep: the same draws as the map's, that computes the axle again."""
     from gearlube_core.dynamics.hypoid_axle.uncertain import drawn_losses

@@ -52,6 +52,7 @@ def out(axle, tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_a_point_that_fails_is_a_row_with_its_reason(out):
     with (out / "map.csv").open() as file:
         rows = list(csv.DictReader(file))

@@ -154,6 +154,7 @@ def test_the_command_writes_report_table_and_figure(tmp_path):
     assert "3 of 3 points are within the bars" in (out / "report.html").read_text()
 
 
+@pytest.mark.slow
 def test_films_of_a_case_are_solved_where_they_were_measured(tmp_path):
     rows = ["0.4,20,40,259,10", "0.8,20,40,430,10", "1.6,20,40,700,10", "0.8,20,60,220,10"]
     head = "entrainment_m_s,load_n,temperature_degc,central_film_nm,uncertainty_percent"

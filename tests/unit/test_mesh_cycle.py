@@ -26,6 +26,7 @@ def store(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
     seen = []
 
@@ -47,12 +48,14 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path, store):
             np.testing.assert_array_equal(resumed[side][name], values)
 
 
+@pytest.mark.slow
 def test_a_finished_run_computes_nothing(store, monkeypatch):
     monkeypatch.setattr(mesh_cycle, "position_record", None)  # would fail if called
     again = run_cycle(FILE, TEETH, SMALL, store=store, jobs=1)
     assert again["drive"]["rotation"].shape == (4, 1)
 
 
+@pytest.mark.slow
 def test_other_teeth_or_loads_are_not_taken_from_the_store(store):
     for other in (
         (FILE, dict.fromkeys(SIDES, stiffness(2e-9)), SMALL),
@@ -63,6 +66,7 @@ def test_other_teeth_or_loads_are_not_taken_from_the_store(store):
         assert len(done) == 8
 
 
+@pytest.mark.slow
 def test_a_damaged_position_is_computed_again(tmp_path, store):
     for file in store.glob("*.npz"):
         (tmp_path / file.name).write_bytes(file.read_bytes()[:100])

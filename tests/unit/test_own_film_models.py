@@ -187,6 +187,7 @@ def test_what_cannot_be_is_refused(copies, more, error, words):
         read_axle(axle_file(copies, more))
 
 
+@pytest.mark.slow
 def test_an_fmu_carries_the_models_and_computes_with_them(copies):
     path = axle_file(copies)
     guid = guid_of(definition_with_axle(path))

@@ -66,6 +66,7 @@ def film_of(settings: HelicalSettings):
     return film_dataset(settings, settings.constant_mesh())
 
 
+@pytest.mark.slow
 def test_a_copy_by_path_gives_the_shipped_pair_bit_for_bit(folder):
     shipped = film_of(operating(HelicalGearFile.named("he_2007"), film_model="solved"))
     own = film_of(operating(HelicalGearFile.given(str(gear_file(folder, OWN)))))
@@ -74,6 +75,7 @@ def test_a_copy_by_path_gives_the_shipped_pair_bit_for_bit(folder):
     assert own.attrs["operating_power_loss"] == shipped.attrs["operating_power_loss"]
 
 
+@pytest.mark.slow
 def test_other_weights_change_the_films_of_lines_by_what_they_say(folder):
     file = HelicalGearFile.given(str(gear_file(folder, OWN)))
     shipped = film_of(operating(file))

@@ -115,6 +115,7 @@ def test_teeth_of_the_other_hand_are_said():
     assert "basic_cradle_angle_deg from -64.433 to 64.433 deg (the sign)" in said
 
 
+@pytest.mark.slow
 @each(
     ("changes", "check", "cure"),
     [
@@ -157,6 +158,7 @@ def test_two_wrong_settings_are_not_blamed_on_one():
     assert "two or more are wrong" in refusal(SHIPPED.varied(wrong))
 
 
+@pytest.mark.slow
 def test_a_small_misfit_is_a_warning_with_its_cure():
     off = SHIPPED.varied({"pinion.machine.sliding_base_mm": 21.147})
     check_pair(off)

@@ -204,6 +204,7 @@ def test_solved_line_loads_give_their_own_face_factor():
     assert face_load(PAIR, states._replace(load=load))[0] == pytest.approx(1.5, rel=0.03)
 
 
+@pytest.mark.slow
 def test_files_figures_and_report(tmp_path):
     found = run_damage(damage_of(wear_coefficient=K_WEAR), folder=tmp_path)
     assert {path.stem for path in (tmp_path / "figures").iterdir()} == {"maps_drive", "bins"}
@@ -279,6 +280,7 @@ def test_gear_files_of_pairs_are_known_from_axles(tmp_path):
     assert not is_pair(str(tmp_path / "missing.toml"))
 
 
+@pytest.mark.slow
 def test_under_a_line_of_the_pair_is_the_stress_of_a_line_load():
     limits, case = FatigueLimits(bending=640e6, torsion=400e6), CaseHardening(720.0, 342.0, 0.8e-3)
     found = run_damage(damage_of(fatigue=limits, case=case))
@@ -295,6 +297,7 @@ def test_under_a_line_of_the_pair_is_the_stress_of_a_line_load():
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("film", ["formula", "solved"])
 def test_the_test_gear_has_the_film_of_lines_as_the_pair_has_it(film):
     settings, teeth = teeth_of(film_model=film)

@@ -79,6 +79,7 @@ def test_films_under_heavy_load_and_hot_films_have_names():
     assert "range.temperature" in hot.exceeded()
 
 
+@pytest.mark.slow
 def test_load_outside_a_film_model_is_named():
     axle = HypoidAxle(replace(mohammadpour_2015_axle(), film="solved"))
     cold = 275.0  # K; its film heats more than those that were solved

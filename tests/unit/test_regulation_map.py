@@ -152,6 +152,7 @@ def test_settings_without_a_grid_are_refused(changed, raised, words):
         regulation_map(replace(SETTINGS, **changed), raised=raised)
 
 
+@pytest.mark.slow
 def test_the_command_writes_what_was_asked_for(tmp_path):
     words = ["map", "--torques", "-100", "0", "100", "--speeds", "100", "300"]
     words += ["--temperatures", "60", "--draws", "20", "--out", str(tmp_path / "out")]

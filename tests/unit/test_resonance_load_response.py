@@ -53,6 +53,7 @@ def test_figure_shows_both_forms(response):
     assert lower.get_xlabel().endswith("[N·m]")
 
 
+@pytest.mark.slow
 def test_a_closed_branch_with_teeth_apart_is_found():
     """At 0.9 the branch that comes down from the highest torque never reaches it."""
     settings = ResonanceSettings(

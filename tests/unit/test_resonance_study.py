@@ -48,6 +48,7 @@ def marched(segment, row, periods=300):
     return 1e-6 * np.ptp(record[:, 1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["two_dof", "one_dof"])
 def test_every_stable_motion_is_what_integration_in_time_settles_on(model):
     settings = dry(first=0.3, last=1.3, frequencies=11)
@@ -89,6 +90,7 @@ def test_stable_lubricated_motions_are_what_integration_in_time_settles_on():
                 assert marched(segment, row, 60) == pytest.approx(followed, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_time_sweeps_lie_on_the_branches():
     study = study_resonance(dry(sweep_frequencies=8, first=0.4, last=0.9, frequencies=8))
     dataset = resonance_dataset(study)
@@ -109,6 +111,7 @@ def study():
     )
 
 
+@pytest.mark.slow
 def test_datasets_state_units_and_survive_netcdf(study, tmp_path):
     for name, dataset in (("a", resonance_dataset(study)), ("b", cycle_dataset(study))):
         for variable in dataset.data_vars.values():
@@ -130,6 +133,7 @@ def test_datasets_state_units_and_survive_netcdf(study, tmp_path):
     assert np.all((part["multiplier"].values[rows] < 1.0) == (part["stable"].values[rows] == 1.0))
 
 
+@pytest.mark.slow
 def test_summary_of_a_softening_resonance(study):
     dataset = resonance_dataset(study)
     for summary in summaries(dataset):
@@ -146,6 +150,7 @@ def test_summary_of_a_softening_resonance(study):
         assert not summary.remarks
 
 
+@pytest.mark.slow
 def test_an_interrupted_study_keeps_what_was_found():
     calls = []
 
@@ -165,6 +170,7 @@ def test_an_interrupted_study_keeps_what_was_found():
     assert "x" not in cycle_dataset(study)
 
 
+@pytest.mark.slow
 def test_flank_contacts_share_the_mesh_force_and_brake_the_pinion():
     study = study_resonance(
         ResonanceSettings(

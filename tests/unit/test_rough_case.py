@@ -91,6 +91,7 @@ def test_the_second_surface_of_a_stand_in_is_the_slow_part():
     assert angles == pytest.approx([8.475, 5.711], abs=0.02)
 
 
+@pytest.mark.slow
 def test_generated_heights_have_their_ra_and_seed():
     made = {"ra_um": 0.1, "period_um": 1000.0, "shortest_um": 40.0, "correlation_um": 17.0}
     one, again, other = (

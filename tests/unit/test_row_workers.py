@@ -108,6 +108,7 @@ def marched(threads):
     return solution
 
 
+@pytest.mark.slow
 def test_rough_film_is_the_same_to_the_bit_for_any_number_of_threads(monkeypatch):
     parts = set()
 

@@ -65,6 +65,7 @@ def test_a_ramp_lasts_as_long_as_the_torque_of_the_mesh_table_asks() -> None:
     assert fitting_duration(too_heavy, fast) == 3.0  # no ramp fits
 
 
+@pytest.mark.slow
 def test_a_run_up_keeps_forces_and_speeds_with_units_at_a_constant_rate(tmp_path) -> None:
     made = run_runup(SHORT, folder=tmp_path)
     found = load_runup(tmp_path)
@@ -95,6 +96,7 @@ def test_a_run_up_keeps_forces_and_speeds_with_units_at_a_constant_rate(tmp_path
     assert not (tmp_path / "parts").exists()
 
 
+@pytest.mark.slow
 def test_a_stopped_ramp_goes_on_from_its_parts_to_the_same_bits(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("gearlube.studies.runup.record._PART", 0.25)
     whole = record_ramp(SHORT, folder=tmp_path)

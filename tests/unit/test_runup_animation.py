@@ -135,6 +135,7 @@ def test_contacts_move_over_the_tooth_and_hertz_ellipses_carry_their_loads(drive
         assert (carried[loaded] > 0.6 * load[loaded]).all()
 
 
+@pytest.mark.slow
 def test_films_of_the_rollers_are_solved_ones_where_the_axle_takes_them() -> None:
     axle = HypoidAxle(dataclasses.replace(SHORT.car_axle.axle, bearing_torque_loss="solved_films"))
     axle.initialise(pinion_speed=290.0, pinion_torque=80.0, wheel_torque=220.0, oil_temperature=OIL)
@@ -152,6 +153,7 @@ def test_films_of_the_rollers_are_solved_ones_where_the_axle_takes_them() -> Non
         assert np.nanmin(film[ring]) == pytest.approx(thinnest, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_figure_begins_with_its_range_and_has_a_slider_with_few_small_frames(
     drive, figures
 ) -> None:
@@ -177,6 +179,7 @@ def test_a_figure_begins_with_its_range_and_has_a_slider_with_few_small_frames(
     assert len(still) - len(empty) < 4e6  # of these plotly has 2
 
 
+@pytest.mark.slow
 def test_bars_of_the_chart_are_the_loads_of_the_frame(drive, figures) -> None:
     chart = figures[1].chart
     for number in (0, 17):
@@ -202,6 +205,7 @@ def test_a_loaded_zone_is_where_all_rollers_that_pass_carry(drive) -> None:
     assert others == "2: all around, 3: all around, 4: all around"
 
 
+@pytest.mark.slow
 def test_teeth_that_are_apart_are_said_and_drawn(drive, tmp_path) -> None:
     some = drive.isel(frame=slice(0, 7)).copy(deep=True)
     some["side"].values[:5] = 0.0
@@ -215,6 +219,7 @@ def test_teeth_that_are_apart_are_said_and_drawn(drive, tmp_path) -> None:
     assert len(save_moving(bare, tmp_path)) == 2
 
 
+@pytest.mark.slow
 def test_an_animation_is_written_read_exported_and_shown_without_a_tooth(drive, tmp_path) -> None:
     few = drive.isel(frame=slice(0, 3))
     files = save_moving(few, tmp_path)

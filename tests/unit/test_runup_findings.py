@@ -45,6 +45,7 @@ def ramp():
     )
 
 
+@pytest.mark.slow
 def test_critical_speeds_are_where_the_mesh_meets_the_modes_of_the_axle(ramp) -> None:
     axle = HypoidAxle(read_axle("mohammadpour_2015").axle)
     axle.initialise(pinion_speed=290.0, pinion_torque=80.0, wheel_torque=221.5, oil_temperature=OIL)
@@ -61,6 +62,7 @@ def test_critical_speeds_are_where_the_mesh_meets_the_modes_of_the_axle(ramp) ->
     assert inside.force > 0.0
 
 
+@pytest.mark.slow
 def test_the_loudest_order_rises_towards_its_resonance_and_is_told_first(ramp) -> None:
     top = peaks(ramp)[0]
     assert (top.mesh_order, top.bearing, top.direction) == (1, "pinion", "axial")

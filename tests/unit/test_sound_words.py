@@ -120,6 +120,7 @@ def test_orders_are_drawn_as_the_ear_weighs_them():
     assert high > 61.0
 
 
+@pytest.mark.slow
 def test_the_command_writes_every_file_and_says_what_is_generic(tmp_path, caplog):
     for name, size in (("möll", 400.0), ("müll", 200.0)):
         (tmp_path / name).mkdir()

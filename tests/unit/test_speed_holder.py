@@ -61,6 +61,7 @@ def balance(model):
     return energy.pop("energy.pinion_work") - sum(energy.values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", ["governor", "imposed"])
 def test_the_speed_stays_under_a_step_of_the_load_and_the_work_of_the_holder_counts(case, mode):
     _, speed, (pinion, wheel), more, ratio = case

@@ -161,6 +161,7 @@ def al3d_file(heights, missing):
     return (head + b"\0" * 254 + b"\r\n").ljust(1024, b"\0") + rows.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("ending", "write"), [("sur", sur_file), ("al3d", al3d_file)])
 def test_files_of_digital_surf_and_alicona_are_read_with_gaps(ending, write, tmp_path, caplog):
     pytest.importorskip("SurfaceTopography")

@@ -93,6 +93,7 @@ def resonance(fmu, speed_kmh, preload, settings):
     return still.drop_vars(lines, errors="ignore").assign(lines)
 
 
+@pytest.mark.slow
 def test_speeds_are_added_around_the_largest_order_until_its_neighbours_are_near(
     fmu, tmp_path, in_this_process
 ):
@@ -173,6 +174,7 @@ def test_failed_points_are_rows_with_a_message_and_are_tried_again(fmu, tmp_path
     assert int(again["status"].sum()) == 6
 
 
+@pytest.mark.slow
 def test_a_point_whose_process_died_is_computed_by_another_process(fmu, tmp_path):
     directory = tmp_path / "unzipped"
     directory.mkdir()

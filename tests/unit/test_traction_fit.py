@@ -69,6 +69,7 @@ def test_stresses_of_points_without_scatter_come_back(stress, limit):
     assert math.isnan(reached) if limit == math.inf else reached == pytest.approx(limit, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_stated_intervals_hold_the_true_stresses_in_95_of_100_sets():
     stress, limit, sets = 4e6, 0.055, 100
     held = np.zeros(2)
@@ -81,6 +82,7 @@ def test_stated_intervals_hold_the_true_stresses_in_95_of_100_sets():
     assert np.all(held < sets)
 
 
+@pytest.mark.slow
 def test_scatter_alone_is_not_taken_for_a_limit():
     found = [fit_traction(made(4e6, noise=0.002, seed=k), OIL, **PLACE) for k in range(20)]
     limits = [one for one in found if not math.isnan(one.limiting_coefficient)]

@@ -77,6 +77,7 @@ def test_a_line_load_has_its_greatest_shear_where_hertz_has_it(smooth):
             assert found == pytest.approx(at * a, abs=0.06 * a)
 
 
+@pytest.mark.slow
 def test_utilisation_is_that_of_a_hand_calculation(smooth):
     of_side = smooth.sel(side="drive")
     p, a = 1e9 * float(of_side["fracture_pressure"]), 1e-3 * float(of_side["fracture_half_width"])
@@ -90,6 +91,7 @@ def test_utilisation_is_that_of_a_hand_calculation(smooth):
         assert float(of_side["fracture_profile"][i]) == pytest.approx(expected, rel=0.005)
 
 
+@pytest.mark.slow
 def test_deep_below_the_shear_is_that_of_a_narrow_load():
     """As 1/depth. At 8 half widths the width is still felt, by 1 %, and the grid is 0.3 % off."""
     for depth in (10.0, 15.0, 20.0):

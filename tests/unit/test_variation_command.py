@@ -28,6 +28,7 @@ def run(tmp_path, monkeypatch, caplog):
     return invoke
 
 
+@pytest.mark.slow
 def test_a_bearing_is_varied_and_all_files_are_there(run, tmp_path):
     """Draws three figures: seconds."""
     code, said = run(*WORDS)
@@ -89,6 +90,7 @@ def test_scatter_samples_the_tolerances_of_the_file_that_are_not_varied_otherwis
         assert reason in said
 
 
+@pytest.mark.slow
 def test_many_parts_of_a_tolerance_file_are_predicted_with_their_share_above_a_limit(run, tmp_path):
     """Forty bearings: draws five figures, seconds."""
     (tmp_path / "load.toml").write_text("[tolerances]\nload.axial_n = { plus_minus = 900.0 }\n")

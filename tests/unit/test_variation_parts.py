@@ -37,6 +37,7 @@ def runs(tmp_path_factory):
     return open_variation(folder)
 
 
+@pytest.mark.slow
 def test_a_linear_result_is_predicted_exactly():
     rng = np.random.default_rng(5)
     inputs = rng.standard_normal((40, 3))
@@ -45,6 +46,7 @@ def test_a_linear_result_is_predicted_exactly():
     assert model.predict(np.array([[1.0, 2.0, 4.0]])) == pytest.approx([10.0], abs=3e-3)
 
 
+@pytest.mark.slow
 def test_the_share_of_areas_above_a_limit_is_that_of_the_normal_distribution(runs):
     limit = 21.0
     many = scattered_parts(runs, DESIGN, parts=20_000, limits={"area": limit})
@@ -84,6 +86,7 @@ class Rough(AreaStudy):
         return (area + np.sin(3.0 * width) * 0.5 + noise, width, *rest)
 
 
+@pytest.mark.slow
 def test_the_bars_of_the_quick_model_hold_their_share_of_runs_that_it_has_not_seen(tmp_path):
     design = Design(spreads=SPREADS, sampling=Sampling("random", 300, seed=8))
     run_variation(Rough(), design, out=tmp_path, jobs=1)
@@ -95,6 +98,7 @@ def test_the_bars_of_the_quick_model_hold_their_share_of_runs_that_it_has_not_se
     assert abs(float(many["bias"])) < 3.0 * float(many["bias_error"])
 
 
+@pytest.mark.slow
 def test_confidence_of_a_share_covers_the_truth_and_grows_with_the_error_of_the_model():
     rng = np.random.default_rng(3)
     truth, held, noise, count = norm.sf(1.0), 0, 0.5, 200

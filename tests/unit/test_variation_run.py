@@ -45,6 +45,7 @@ def test_every_point_has_its_numbers_and_its_inputs(tmp_path):
     assert found["status"].values.tolist() == [1] * 14
 
 
+@pytest.mark.slow
 def test_every_variable_of_a_variation_and_its_statistics_is_known(tmp_path):
     """Widths of 3 and 5 mm, of which the last fails, by nine lengths within 1 to 2 mm."""
     spread = Spread(key="length_mm", low=1.0, high=2.0)
@@ -126,6 +127,7 @@ def test_a_point_that_fails_is_a_row_with_its_reason(tmp_path):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("error", [MemoryError, OSError, FileError, EOFError])
 def test_what_fails_by_the_machine_is_computed_by_the_next_run(tmp_path, caplog, error):
     study = AreaStudy(loses_at=3.0, fails_at=5.0, folder=tmp_path, error=error)
@@ -166,6 +168,7 @@ def test_nothing_is_computed_where_a_point_is_wrong(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_another_variation_is_not_mixed_in(tmp_path):
     varied(tmp_path)
     for study, design in ((AreaStudy(fails_at=3.0), GRID), (AreaStudy(), SAMPLES)):
@@ -180,6 +183,7 @@ def test_a_folder_without_results_is_refused(tmp_path):
         open_variation(tmp_path)
 
 
+@pytest.mark.slow
 def test_statistics_are_those_of_a_uniform_distribution(tmp_path):
     varied(tmp_path, design=SAMPLES)
     _, summary = write_summary(tmp_path, {"area": 9.0})

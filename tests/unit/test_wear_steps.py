@@ -181,6 +181,7 @@ def rigid(car, monkeypatch):
     monkeypatch.setattr(wear_steps, "contact_table", lambda *given: car.axle.mesh)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("most", "step"), [(1, 1e-4), (40, 0.4e-6)])
 def test_with_the_same_contact_steps_add_up_to_the_rate_of_the_new_flank(
     car, gears, rigid, most, step
@@ -195,6 +196,7 @@ def test_with_the_same_contact_steps_add_up_to_the_rate_of_the_new_flank(
     np.testing.assert_allclose(found["worn_map"].max(("up", "along")), found["worn_depth"][-1])
 
 
+@pytest.mark.slow
 def test_run_with_steps_has_rows_words_figure_and_worn_gears(car, gears, rigid, tmp_path):
     settings = DamageSettings(
         car=car, bins=BIN, gear_file=gears, wear_coefficient=K, wear_of_all_load=True,

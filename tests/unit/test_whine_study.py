@@ -36,6 +36,7 @@ def results(tmp_path_factory):
         return folder, study.run_whine(shipped_file(), SETTINGS, folder=folder, jobs=1)
 
 
+@pytest.mark.slow
 def test_far_below_resonance_the_error_is_the_static_one(results):
     dataset = results[1]
     count = SERIES.positions
@@ -49,6 +50,7 @@ def test_far_below_resonance_the_error_is_the_static_one(results):
     assert not without_units(dataset)
 
 
+@pytest.mark.slow
 def test_rows_are_sorted_by_the_largest_change_of_the_force(results):
     folder, dataset = results
     rows = study.whine_rows(dataset)
