@@ -1,5 +1,7 @@
 """Rewrite the tables of fields in the pages of input files: python -m docs.field_pages.
 
+Also fields.json, by which a command refuses a wrong field before it imports what computes.
+
 All text stands in the pages. A table follows a heading that begins with its section in brackets;
 a heading without brackets has the fields outside all sections. Some tables are of other numbers of
 the package.
@@ -7,8 +9,12 @@ the package.
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
 
 from docs.measured_file.make import lines_rows
 from docs.page import Page
@@ -28,6 +34,7 @@ from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.hypoid_geometry.measured.measured_file import MeasuredFile
+from gearlube_core.input_file.early_check import FIELDS
 from gearlube_core.input_file.field_notes import FieldNote, field_notes
 from gearlube_core.input_file.field_units import attribute_of
 from gearlube_core.input_file.input_file import InputFile
@@ -230,6 +237,41 @@ _OTHER_TABLES = {
     "oil_file": _oils,
 }
 
+FIELDS_FILE = Path(str(files("gearlube_core.input_file") / FIELDS))
+
+
+def fields_text() -> str:
+    """Return fields.json as the package has it now: a line for each kind of file."""
+    kinds = {model.__name__: model for models in PAGES.values() for model in models}
+    lines = []
+    for name, model in kinds.items():
+        parts: dict[str, Any] = {}
+        if model is TrainFile:
+            parts = {
+                section: {kind: section_of(one).model_json_schema() for kind, one in known.items()}
+                for section, known in (("bodies", BODIES), ("elements", ELEMENTS.known()))
+            }
+        kind = {"title": model.title, "files": model.files, "unmodelled": dict(model.unmodelled),
+                "schema": model.model_json_schema(), "parts": parts}  # fmt: skip
+        text = json.dumps(_without_titles(kind), separators=(",", ":"), default=float)
+        lines.append(f"{json.dumps(name)}:{text}")
+    return "{" + ",\n".join(lines) + "}\n"
+
+
+def _without_titles(part: Any, *, names: bool = True) -> Any:
+    """Return a schema without the titles of its fields; keys may be `names` of fields."""
+    if isinstance(part, list):
+        return [_without_titles(one, names=False) for one in part]
+    if not isinstance(part, dict):
+        return part
+    return {
+        key: _without_titles(one, names=key in ("properties", "$defs"))
+        for key, one in part.items()
+        if names or key != "title"
+    }
+
+
 if __name__ == "__main__":
+    FIELDS_FILE.write_text(fields_text(), encoding="utf-8")
     for each in PAGES:
         refreshed(each).write()

@@ -103,6 +103,44 @@ _EXAMPLES = {
 }
 
 
+# what writes a file that another file names, by the last part of the field; the kind of file
+_MADE_BY = {
+    "mesh_table": ("mesh table", "`gearlube contact my_gears.toml` writes one"),
+    "asperity_table": ("asperity table", "`gearlube roughness flow-factors` writes one"),
+    "line_mesh": ("line mesh", "`gearlube helical my_pair.toml` writes one"),
+    "flank_model": ("film model", "`gearlube film-model fit` writes one"),
+    "roller_model": ("film model", "`gearlube film-model fit` writes one"),
+    "line_model": ("film model", "`gearlube film-model fit` writes one"),
+    "film_model": ("film model", "`gearlube film-model fit` writes one"),
+    "matrices_file": ("file of matrices", "numpy.savez writes one, see docs/trains.md"),
+    "gear_file": ("gear file", ""),
+    "gear": ("gear file", ""),
+    "axle_file": ("axle file", ""),
+    "oil_file": ("oil file", ""),
+    "oil": ("oil file", ""),
+    "name": ("oil file", ""),
+    "oil.file": ("oil file", ""),
+}
+
+
+def unread_named(path: str | Path, error: Exception, namer: str | Path, field: str) -> str:
+    """Return why a file that the file `namer` names in a field cannot be read, in sentences.
+
+    Examples
+    --------
+    >>> unread_named(
+    ...     "/cars/x.nc", IsADirectoryError(), "my.toml", "gear_set.mesh_table"
+    ... )  # doctest: +ELLIPSIS
+    'The mesh table /cars/x.nc cannot be read: it is a folder. my.toml names it in gear_set...'
+    """
+    found = _MADE_BY.get(field) or _MADE_BY.get(field.rpartition(".")[2]) or ("file", "")
+    cure = f" {found[1][0].upper()}{found[1][1:]}." if found[1] else ""
+    return (
+        f"{unread(found[0], path, error)}. {namer} names it in {field}; a relative path in a file "
+        f"counts from the folder of that file.{cure}"
+    )
+
+
 def unread(what: str, path: str | Path, error: Exception) -> str:
     """Return why a file cannot be read, as a sentence without its full stop.
 

@@ -26,13 +26,14 @@ from gearlube_core.dynamics.train.plan import MOST_EXPONENTIAL
 from gearlube_core.dynamics.train.shaft import Shaft
 from gearlube_core.errors import GearLubeError, ParameterError
 from gearlube_core.input_file.input_file import InputFile, Section
+from gearlube_core.input_file.refusal import wrong_fields
 from gearlube_core.oil.oil_file import Temperature, read_oil
 from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm, rpm_to_rads
 
 _NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
 _RESERVED = ("oil", "range", "energy", "efficiency", "start")  # words of the FMU's own variables
 _PARTS = ("bodies", "elements")
-_LISTED, _SHOWN = 20, 80  # wrong fields in an error, signs of a wrong text
+_SHOWN = 80  # signs of a wrong text
 Text = Annotated[str, Field(min_length=1)]
 _FASTEST = rads_to_rpm(MAX_SPEED)
 _NO_MODE = 0.5  # Hz, below which nothing brings a motion back: bearings and mounts have more
@@ -170,10 +171,7 @@ class TrainFile(InputFile):
         found = super().from_data(data | whole, where)
         wrong = found._parts()[2]
         if wrong:
-            more = f" And {len(wrong) - _LISTED} more." if len(wrong) > _LISTED else ""
-            raise ParameterError(
-                f"{where} has {len(wrong)} wrong field(s). {' '.join(wrong[:_LISTED])}{more}"
-            )
+            raise wrong_fields(where, wrong)
         try:
             found.case()
         except GearLubeError as reason:

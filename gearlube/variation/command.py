@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -16,10 +16,12 @@ if TYPE_CHECKING:
 
 logger = logging.getLogger("gearlube")
 
+Study = Literal["map", "sweep", "whine", "cycle", "bearing", "helical", "contact", "resonance"]
+
 
 def vary(
     study: Annotated[
-        str,
+        Study,
         typer.Argument(
             help="map, sweep, whine, cycle, bearing, helical, contact or resonance.",
             metavar="STUDY",

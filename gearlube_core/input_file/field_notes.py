@@ -151,7 +151,11 @@ class FieldNote(NamedTuple):
 @cache
 def field_notes(model: type[BaseModel]) -> dict[str, FieldNote]:
     """Return the notes of all fields of a model and its sections, by dotted name, in order."""
-    schema = model.model_json_schema()
+    return notes_of_schema(model.model_json_schema())
+
+
+def notes_of_schema(schema: Mapping[str, Any]) -> dict[str, FieldNote]:
+    """Return the notes of all fields in the JSON schema of a model, by dotted name, in order."""
     return dict(_walk(schema, schema.get("$defs", {}), ""))
 
 

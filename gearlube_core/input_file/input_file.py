@@ -16,8 +16,9 @@ from typing import Any, ClassVar, Literal, NamedTuple, Self
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from gearlube_core.checks import read_content
-from gearlube_core.errors import ParameterError, unread
-from gearlube_core.input_file.field_notes import as_meant, field_notes, sentence, unusual_numbers
+from gearlube_core.errors import ParameterError
+from gearlube_core.input_file.field_notes import as_meant, field_notes, unusual_numbers
+from gearlube_core.input_file.refusal import MOST_LISTED, check_places, named_places, refusal
 
 Origin = Literal["given", "inferred", "assumed"]
 
@@ -51,47 +52,6 @@ def notes_as_text(notes: Sequence[InputNote]) -> str:
     return json.dumps([[n.field, n.value_text, n.unit, n.origin, n.why] for n in notes])
 
 
-class _FileKind(NamedTuple):
-    """A kind of input file by the fields that no other kind has."""
-
-    words: str  # what errors call it, with its article
-    marks: tuple[str, ...]  # dotted fields or sections
-    use: str  # a sentence: what takes such a file
-
-
-_KINDS = (
-    _FileKind(
-        "an axle file",
-        ("gear_set",),
-        "gearlube axle show, sweep, map, cycle and runup take it.",
-    ),
-    _FileKind(
-        "a gear file of a hypoid pair",
-        ("pinion.machine", "gear.machine"),
-        "gearlube contact takes it; an axle file names it in [gear_set] as gear_file.",
-    ),
-    _FileKind(
-        "a gear file of a helical pair",
-        ("pair.helix_angle_deg",),
-        "gearlube helical, whine and build-fmu --gear take it.",
-    ),
-    _FileKind(
-        "a blank file",
-        ("pair.pinion_teeth", "pair.gear_teeth"),
-        "gearlube design makes a gear file of it.",
-    ),
-    _FileKind(
-        "a train file",
-        ("bodies", "elements"),
-        "gearlube drivetrain and build-fmu --train take it.",
-    ),
-    _FileKind(
-        "an oil file",
-        ("base_oil",),
-        "gearlube oil shows it; an axle file names it in [oil] as file, other commands as --oil.",
-    ),
-)
-
 logger = logging.getLogger(__name__)
 
 # a line whose value is a number with a comma
@@ -102,7 +62,6 @@ _MOST = 50_000  # fields and numbers in it
 _LONGEST = 10_000  # characters of a text
 _GREATEST = 10**18  # whole number
 _SHOWN = 80  # characters of a wrong name or text
-_LISTED = 20  # wrong fields
 _DEEPEST = 20  # parts of a key
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 # parts of bounded length, each taken once and whole, so that the search stays linear
@@ -142,13 +101,7 @@ class InputFile(Section):
         data = read_toml(path, cls.title)
         places = cls._places(data, Path(path).parent.absolute())
         found = cls.from_data(data, str(path))
-        for field, place in places.items():
-            if not isfile(place):
-                reason = IsADirectoryError() if place.is_dir() else FileNotFoundError()
-                raise ParameterError(
-                    f"{unread('file', place, reason)}. {path} names it in {field}; a relative "
-                    "path in a file counts from the folder of that file."
-                )
+        check_places(path, places)
         found.warn(path)
         return found
 
@@ -177,20 +130,13 @@ class InputFile(Section):
     @classmethod
     def _places(cls, data: dict[str, Any], folder: Path) -> dict[str, Path]:
         """Return the paths of files that data name, by field; write them into the data."""
-        places = {}
-        for field in cls.file_fields(data):
+        places = named_places(data, cls.file_fields(data), folder)
+        for field, place in places.items() if cls.absolute_files else ():
             *sections, key = field.split(".")
             section: Any = data
             for part in sections:
-                section = section.get(part) if isinstance(section, dict) else None
-            text = section.get(key) if isinstance(section, dict) else None
-            if not isinstance(text, str) or not text:
-                continue
-            place = folder / text
-            if isfile(place) or Path(text).suffix or len(Path(text).parts) > 1:
-                places[field] = place
-                if cls.absolute_files:
-                    section[key] = str(place)
+                section = section[part]
+            section[key] = str(place)
         return places
 
     @classmethod
@@ -222,25 +168,11 @@ class InputFile(Section):
         try:
             return cls.model_validate(data)
         except ValidationError as reason:
-            notes = field_notes(cls)
-            other = _other_kind(data, notes)
-            if other is not None:
-                raise ParameterError(
-                    f"{where} is not the file that is asked for ({cls.title}): its fields are "
-                    f"those of {other.words}. {other.use}"
-                ) from None
             errors = reason.errors()
-            if len(errors) <= _LISTED:
+            if len(errors) <= MOST_LISTED:
                 errors += cls._behind(data, reason)
-            lines = [sentence(error, notes, cls.unmodelled) for error in errors[:_LISTED]]
-            known = {".".join(str(part) for part in error["loc"]) for error in errors}
-            asked = [
-                said for name, said in unusual_numbers(data, notes).items() if name not in known
-            ]
-            raise ParameterError(
-                f"{where} has {len(errors)} wrong field(s). "
-                + " ".join(one if len(one) < 1000 else f"{one[:1000]}..." for one in lines + asked)
-            ) from None
+            notes = field_notes(cls)
+            raise refusal(data, where, errors, notes, cls.title, cls.unmodelled) from None
 
     @classmethod
     def _behind(cls, data: dict[str, Any], reason: ValidationError) -> list[Any]:
@@ -376,26 +308,3 @@ def toml_data(content: bytes, where: str) -> dict[str, Any]:
     if not data:
         raise ParameterError(f"{where} is empty: it has no field. Write the fields into it.")
     return data
-
-
-def _other_kind(data: Mapping[str, Any], fields: Collection[str]) -> _FileKind | None:
-    """Return the kind of file that data are, if that kind lacks these dotted fields; else None.
-
-    >>> _other_kind({"base_oil": "pao"}, ["gear_set.mesh_table"]).words
-    'an oil file'
-    """
-    for kind in _KINDS:
-        if all(_has(data, mark) for mark in kind.marks):
-            known = all(
-                any(f"{field}.".startswith(f"{mark}.") for field in fields) for mark in kind.marks
-            )
-            return None if known else kind
-    return None
-
-
-def _has(data: Any, dotted: str) -> bool:
-    for part in dotted.split("."):
-        if not isinstance(data, Mapping) or part not in data:
-            return False
-        data = data[part]
-    return True
