@@ -6,6 +6,8 @@ Start here::
 
     axle = gl.read_axle("my_axle.toml").axle                    # or gl.mohammadpour_2015_axle()
     losses = gl.run_loss_map(gl.LossMapSettings(axle=axle))     # an xarray.Dataset
+    losses.plot().savefig("map.png")                            # the study's first figure
+    losses.report("map")                                        # map/report.html
 
 Its FMU is built by `gearlube build-fmu --axle my_axle.toml`.
 

@@ -22,6 +22,7 @@ from gearlube.damage.wear_steps import wear_in_steps
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.cycle import variables_of
+from gearlube.report.result import Result
 from gearlube_core.arrays import Array
 from gearlube_core.friction.flank_states import BearingStates
 from gearlube_core.progress import Progress, no_progress
@@ -61,7 +62,7 @@ _OF_BINS = {
 
 def run_damage(
     settings: DamageSettings, *, folder: Path | None = None, progress: Progress = no_progress
-) -> xr.Dataset:
+) -> Result:
     """Return what the bins of a life do to flanks, roots and bearings of an axle or a pair.
 
     Parameters
@@ -202,6 +203,7 @@ def run_damage(
             )
         )
     dataset.attrs["summary"] = json.dumps(summary_rows(dataset, settings, beside.rows))
+    dataset = Result.of(dataset, "damage")
     if folder is not None:
         _write(dataset, folder)
         store.drop(keys)

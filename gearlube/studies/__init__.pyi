@@ -1,6 +1,9 @@
 # The public names of this module, and the only list of them: the package reads this file, type
 # checkers and docs/api.py do too. "# -- " begins a group.
 
+# -- Results
+from gearlube.report.result import Result as Result
+
 # -- Trains of bodies and elements
 from gearlube.studies.drivetrain.cycle import train_cycle as train_cycle
 from gearlube.studies.drivetrain.losses import map_losses as map_losses

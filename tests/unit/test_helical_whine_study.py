@@ -55,7 +55,7 @@ def test_inertias_are_those_of_the_gear_file_unless_given():
 
 @pytest.mark.slow
 def test_the_report_says_that_the_pair_is_helical_and_what_moves_it(dataset):
-    html = report_html(whine_report(dataset, "gearlube whine"))
+    html = report_html(whine_report(dataset))
     for part in ("Whine of the helical pair he_2007", "reliefs and slopes change", "crown"):
         assert part in html
     assert "Profile shift coefficients are guessed: x = 0.000 (pinion)" in html

@@ -187,6 +187,6 @@ def test_charts_have_a_gap_between_branches_and_the_numbers_of_each():
 
 
 def test_the_report_has_models_inputs_and_limits(tmp_path):
-    html = report_html(resonance_report(response(), tmp_path, command_line="gearlube resonance"))
+    html = report_html(resonance_report(response(), tmp_path))
     for part in ("Models side by side", "fold 0.9500, fold 0.8500", "roughness of both flanks"):
         assert part in html

@@ -141,6 +141,6 @@ def test_speeds_without_a_stable_motion_are_warnings():
 
 
 def test_the_report_has_its_figures_tables_and_inputs():
-    html = report_html(whine_report(whine(), "gearlube whine"))
+    html = report_html(whine_report(whine()))
     for part in ("What small errors change of mesh order 2", "pinion: radial setting", "50 N·m"):
         assert part in html

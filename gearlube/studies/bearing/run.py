@@ -12,6 +12,7 @@ import xarray as xr
 
 from gearlube.output.csv_text import csv_text
 from gearlube.report.films import film_model_attributes
+from gearlube.report.result import Result
 from gearlube.studies.bearing.figures import save_bearing_figures
 from gearlube_core import __version__
 from gearlube_core.bearings.bearing_file import BearingFile
@@ -130,7 +131,7 @@ def run_bearing(
     oil: Lubricant | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return friction torque and power loss of a bearing, in all and by part.
 
     Parameters
@@ -188,7 +189,7 @@ def run_bearing(
             temperature=temperature,
         )
         progress((i + 1) / len(conditions), f"bearing: {model.law}")
-    dataset = _bearing_dataset(file, oil, settings, losses)
+    dataset = Result.of(_bearing_dataset(file, oil, settings, losses), "bearing")
     if folder is not None:
         write_bearing(dataset, folder)
     return dataset

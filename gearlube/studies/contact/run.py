@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import xarray as xr
 
@@ -12,6 +12,7 @@ from gearlube.report.inputs import file_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Report, Table
 from gearlube.report.pictures import pictured
+from gearlube.report.result import Result, WithResult
 from gearlube.studies.contact.figures import save_contact_figures
 from gearlube.studies.contact.figures.catalogue import CONTACT_CATALOGUE
 from gearlube.studies.contact.figures.flank_maps import (
@@ -74,7 +75,7 @@ POSITIONS = "positions"  # folder of finished positions, in that of the results
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ContactResults:
+class ContactResults(WithResult):
     """Results of a tooth contact analysis.
 
     Parameters
@@ -85,7 +86,8 @@ class ContactResults:
         The same as the dynamics read it.
     """
 
-    contact: xr.Dataset
+    shown: ClassVar[str] = "contact"
+    contact: Result
     mesh_table: MeshTable
 
 
@@ -133,31 +135,21 @@ def run_contact(
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
     store = None if folder is None else folder / POSITIONS
-    dataset = analyse_contact(file, settings, store=store, jobs=jobs, progress=progress)
+    dataset = Result.of(
+        analyse_contact(file, settings, store=store, jobs=jobs, progress=progress), "contact"
+    )
     if folder is not None:
         progress(1.0, "writing report and figures")
         write_dataset(dataset, folder / "contact.nc")
         save_contact_figures(dataset, folder / "figures")
-        _write_contact_report(dataset, folder, command_line)
+        write_report(contact_report(dataset, folder / "figures", command_line), folder)
     results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
         write_mesh_table(results.mesh_table, folder / f"{pair_stem(file.name)}.nc")
     return results
 
 
-def _write_contact_report(contact: xr.Dataset, folder: Path | str, command_line: str = "") -> Path:
-    """Write report.html beside the figures that lie in FOLDER/figures; return its path.
-
-    Examples
-    --------
-    >>> contact = xr.load_dataset("gearlube_contact/contact.nc")  # doctest: +SKIP
-    >>> _write_contact_report(contact, "gearlube_contact")  # doctest: +SKIP
-    """
-    folder = Path(folder)
-    return write_report(_contact_report(contact, folder / "figures", command_line), folder)
-
-
-def _contact_report(contact: xr.Dataset, figures: Path, command_line: str = "") -> Report:
+def contact_report(contact: xr.Dataset, figures: Path, command_line: str = "") -> Report:
     """Return the report of a contact analysis; `figures` is the folder of its pictures."""
     attributes = contact.attrs
     torques = ", ".join(f"{one:g}" for one in contact["torque"].values)

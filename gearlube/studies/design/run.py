@@ -6,7 +6,7 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
@@ -17,6 +17,7 @@ from gearlube.report.inputs import stored_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Report, Table
 from gearlube.report.pictures import pictured, save_pictures
+from gearlube.report.result import Result, WithResult
 from gearlube.studies.design.dataset import design_dataset
 from gearlube.studies.design.figures import DESIGN_CATALOGUE
 from gearlube.studies.design.findings import findings, numbers
@@ -52,7 +53,7 @@ _SHARE = 0.9  # of the time for the settings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DesignResults:
+class DesignResults(WithResult):
     """Results of a design.
 
     Parameters
@@ -66,7 +67,8 @@ class DesignResults:
 
     design: Design
     forms: dict[str, ToothForm]
-    dataset: xr.Dataset
+    dataset: Result
+    shown: ClassVar[str] = "dataset"
 
 
 def run_design(
@@ -105,7 +107,9 @@ def run_design(
     progress(_SHARE, "form of the teeth")
     forms = {"pinion": tooth_form(design.file, "pinion"), "gear": tooth_form(design.file, "gear")}
     progress(_SHARE + 0.02, "ease-off and contact pattern")
-    results = DesignResults(design=design, forms=forms, dataset=design_dataset(design, forms))
+    results = DesignResults(
+        design=design, forms=forms, dataset=Result.of(design_dataset(design, forms), "design")
+    )
     if folder is not None:
         progress(0.98, "writing report and figures")
         write_design(results, folder, command_line)
@@ -137,20 +141,9 @@ def write_design(results: DesignResults, folder: Path, command_line: str = "") -
     write_text(problem_text(results.design), folder / PROBLEM)
     write_dataset(results.dataset, folder / "design.nc")
     save_pictures(DESIGN_CATALOGUE, folder / "figures", results.dataset)
-    _write_design_report(results.dataset, folder, command_line)
+    report = design_report(results.dataset, folder / "figures", command_line)
+    write_report(report, folder)
     return path
-
-
-def _write_design_report(dataset: xr.Dataset, folder: Path | str, command_line: str = "") -> Path:
-    """Write report.html beside the figures that lie in FOLDER/figures; return its path.
-
-    Examples
-    --------
-    >>> found = xr.load_dataset("gearlube_design/design.nc")  # doctest: +SKIP
-    >>> _write_design_report(found, "gearlube_design")  # doctest: +SKIP
-    """
-    folder = Path(folder)
-    return write_report(design_report(dataset, folder / "figures", command_line), folder)
 
 
 def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> Report:

@@ -15,6 +15,7 @@ from gearlube.plotting.words import not_modelled
 from gearlube.report.churning import REGIME, churning_regime
 from gearlube.report.cycle import KJ, Variable, energy, steps_dataset, variables_of
 from gearlube.report.films import covered_alone, film_model_attributes
+from gearlube.report.result import Result
 from gearlube.studies.drive_cycle.figures import save_cycle_figures
 from gearlube.studies.drive_cycle.loss_field import (
     Demand,
@@ -207,7 +208,7 @@ def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> di
 
 def run_cycle(
     settings: DriveCycleSettings, *, folder: Path | None = None, progress: Progress = no_progress
-) -> xr.Dataset:
+) -> Result:
     """Return losses and oil temperature of an axle over a drive cycle.
 
     Parameters
@@ -274,6 +275,7 @@ def run_cycle(
         bars = part_of(progress, _OF_MAP, _OF_SPREAD)
         spread = cycle_spread(settings, demand, losses, bars)
     dataset = cycle_dataset(settings, demand, losses, warming, others, spread)
+    dataset = Result.of(dataset, "cycle")
     if folder is not None:
         progress(1.0, "writing files and figures")
         folder.mkdir(parents=True, exist_ok=True)

@@ -27,6 +27,7 @@ from gearlube.report.cycle import (
 )
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, WARNING, Finding, Number, Table
+from gearlube.report.result import Result
 from gearlube.studies.drivetrain.losses import largest, map_losses, point_losses, source_name
 from gearlube.studies.drivetrain.operation import Operation
 from gearlube_core.arrays import Array
@@ -91,7 +92,7 @@ def train_cycle(
     regeneration: float = 1.0,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the energy that each element of a train loses over a drive cycle.
 
     The loads drive the wheels of the car. Each step is a steady one at the speed and torque in its
@@ -154,7 +155,7 @@ def cycle_losses(
     losses: xr.Dataset,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the result of `train_cycle` from the map of its plan."""
     demand, operation = plan.demand, plan.operation
     field, without = _field(losses)
@@ -198,6 +199,7 @@ def cycle_losses(
         used = energy(total + demand.road + demand.brakes, demand) + KJ * gained
         imbalance = abs(energy(put_in, demand) - used) / float(dataset["energy_in"])
         dataset.attrs["imbalance"] = imbalance
+    dataset = Result.of(dataset, "train cycle")
     if folder is not None:
         write_dataset(dataset, folder / FILE)
         write_text(csv_text(*step_rows(dataset, "shaft", {"filled": filled})), folder / "cycle.csv")

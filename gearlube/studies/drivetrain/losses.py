@@ -17,6 +17,7 @@ from drivetrain.train.train_file import TrainCase
 from gearlube.output.csv_text import csv_text, number_text
 from gearlube.plotting.style import PARTS, house_style, label_contours, new_figure
 from gearlube.report.parts import NOTE, WARNING, Finding
+from gearlube.report.result import Result
 from gearlube.studies.drivetrain.operation import Operation
 from gearlube_core import __version__
 from gearlube_core.arrays import Array
@@ -48,7 +49,7 @@ def map_losses(
     torques: Array | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the losses of each element of a train over speed and torque of its driven shaft.
 
     Each point runs in time from its equilibrium; the loads take what losses leave.
@@ -104,6 +105,7 @@ def map_losses(
         rpm = float(rads_to_rpm(task[0]))
         progress((k + 1) / len(tasks), f"loss map, {rpm:.4g} rpm and {task[1]:.4g} N.m")
     dataset = _dataset(operation, speeds, torques, sources, lost, load, failure)
+    dataset = Result.of(dataset, "train map")
     if folder is not None:
         write_dataset(dataset, folder / FILE)
         head = ["speed_rpm", "torque_n_m", "load_torque_n_m", "efficiency", *sources]

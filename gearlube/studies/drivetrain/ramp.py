@@ -14,6 +14,7 @@ from drivetrain.speed_ramp import RampHold, SpeedRamp
 from drivetrain.train.train_file import TrainCase
 from gearlube.plotting.style import house_style, largest_in_cells, name_levels, new_figure, outlined
 from gearlube.report.parts import NOTE, Finding
+from gearlube.report.result import Result
 from gearlube.studies.drivetrain.operation import Operation, lost_power
 from gearlube.studies.drivetrain.orders import Order, Parts, order_forces, orders_of, parts_of
 from gearlube.studies.drivetrain.vibration import mean_train
@@ -52,7 +53,7 @@ def run_ramp(
     duration: float | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the motion of a train whose drive keeps its torque, while its loads hold a ramp.
 
     Parameters
@@ -109,6 +110,7 @@ def run_ramp(
     case.start()
     dataset = dataset.merge(order_forces(operation, mean_train(case), speeds), join="exact")
     dataset.attrs |= {"duration": plan.duration, "revolutions": plan.revolutions}
+    dataset = Result.of(dataset, "train run-up")
     if folder is not None:
         write_compressed_dataset(dataset, folder / FILE)
     return dataset

@@ -105,7 +105,8 @@ def _motion_figure(dataset: xr.Dataset) -> Any:
     return figure
 
 
-def _loss_figure(dataset: xr.Dataset) -> Any:
+def power_figure(dataset: xr.Dataset) -> Any:
+    """Return the power lost by kind, mean of the second half of a run."""
     found = {name: value for name, value in losses(dataset).items() if value > 0.0}
     with house_style():
         figure = new_figure(7.2, 1.2 + 0.35 * len(found))
@@ -152,7 +153,7 @@ _FIGURES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
         "Last tenth of the run. A mesh that swings far more than the others is near a resonance.",
     ),
     "losses": (
-        _loss_figure,
+        power_figure,
         "Where the power goes",
         "Mean of the second half of the run; losses of one kind are summed over all elements.",
     ),

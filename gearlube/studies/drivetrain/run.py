@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.train.train_file import TrainCase
+from gearlube.report.result import Result
 from gearlube.studies.drivetrain.operation import Operation
 from gearlube.studies.drivetrain.orders import order_forces
 from gearlube.studies.drivetrain.vibration import mean_train, responses
@@ -40,7 +41,7 @@ def run_drivetrain(
     step: float | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the motion of a drivetrain from its equilibrium, and its modes.
 
     Parameters
@@ -143,6 +144,7 @@ def run_drivetrain(
             **driven,
         },
     )
+    dataset = Result.of(dataset, "drivetrain")
     if folder is not None:
         write_dataset(dataset, folder / FILE)
     return dataset

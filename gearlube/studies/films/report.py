@@ -12,10 +12,9 @@ import xarray as xr
 from gearlube.report.charts import Axis, Line, add_line, panels
 from gearlube.report.inputs import remark_findings
 from gearlube.report.numbers import number_text
-from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Input, Report, Table
 from gearlube.report.pictures import pictured
-from gearlube.studies.films.figures.catalogue import CATALOGUES, drawn_figures
+from gearlube.studies.films.figures.catalogue import drawn_figures
 from gearlube.studies.films.figures.parts import HEADROOM, shown_range
 from gearlube.studies.films.film_formulas import ROUGHNESS
 from gearlube.studies.films.findings import STEADY, findings, numbers
@@ -75,23 +74,11 @@ _WORDS = {
 }
 
 
-def write_film_report(dataset: xr.Dataset, folder: Path | str, command_line: str = "") -> Path:
-    """Write report.html beside the figures that lie in FOLDER/figures; return its path.
-
-    Examples
-    --------
-    >>> film = xr.load_dataset("gearlube_ehl_line/line.nc")  # doctest: +SKIP
-    >>> write_film_report(film, "gearlube_ehl_line")  # doctest: +SKIP
-    """
-    folder = Path(folder)
-    return write_report(film_report(dataset, folder / "figures", command_line), folder)
-
-
 def film_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> Report:
     """Return the report of a film; `figures` is the folder of its pictures."""
     of = dataset.attrs
     kind = str(of["contact"])
-    catalogue = {name: CATALOGUES[kind][name] for name in drawn_figures(dataset)}
+    catalogue = drawn_figures(dataset)
     facts = (("command", command_line), ("source", str(of["source"])), ("outcome", of["outcome"]))
     return Report(
         study=f"ehl {kind}",

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.report.result import Result
 from gearlube.studies.films.figures.catalogue import save_film_figures
 from gearlube.studies.films.film_formulas import film_ratios
 from gearlube.studies.films.hypoid.summary import ratio_csv, ratio_rows
@@ -165,11 +166,12 @@ def begin(folder: Path | None, progress: Progress, sentence: str) -> None:
 
 def finished(
     dataset: xr.Dataset, folder: Path | None, progress: Progress = no_progress, share: float = 0.5
-) -> xr.Dataset:
-    """Write the dataset of a run if `folder` is given, and return the dataset.
+) -> Result:
+    """Write the dataset of a run if `folder` is given, and return it as a result.
 
     `share` of the run was done before.
     """
+    dataset = Result.of(dataset, "ehl")
     if folder is not None:
         progress(share, "writing files and figures")
         write_film_results(dataset, folder)

@@ -6,8 +6,8 @@ import logging
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
+from gearlube.report.result import Result
 from gearlube.studies.films.datasets.hypoid import hypoid_dataset, hypoid_key
 from gearlube.studies.films.hypoid.flank import HypoidFlank, hypoid_flank
 from gearlube.studies.films.results import begin, finished
@@ -28,7 +28,7 @@ def run_hypoid(
     record_every: int = 10,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the films of a hypoid tooth pair from entry to exit, together with film formulas.
 
     Parameters

@@ -10,6 +10,7 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.report.inputs import remark_attributes
+from gearlube.report.result import Result
 from gearlube.studies.films.datasets.helical import (
     CycleLines,
     cycle_dataset,
@@ -92,7 +93,7 @@ def run_helical_march(
     *,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the film of a helical pair's contact line through its meshing cycle, with squeeze.
 
     Parameters

@@ -9,6 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from gearlube.report.inputs import remark_attributes
+from gearlube.report.result import Result
 from gearlube.studies.films.datasets.contact import line_dataset, point_dataset
 from gearlube.studies.films.datasets.helical import helical_dataset
 from gearlube.studies.films.film_formulas import ROUGHNESS
@@ -39,7 +40,7 @@ def run_line(
     film_error: float | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the film of a line contact, isothermal or thermal as the case says.
 
     Parameters
@@ -89,7 +90,7 @@ def run_point(
     film_error: float | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the film of a point contact, isothermal or thermal as the case says.
 
     Parameters
@@ -129,7 +130,7 @@ def run_helical_line(
     film_error: float | None = None,
     folder: Path | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the steady film on a helical pair's contact line at one position.
 
     Parameters

@@ -10,7 +10,6 @@ import xarray as xr
 
 from gearlube.report.charts import COLOURS, Axis, Line, add_line, line_chart, mark_level, panels
 from gearlube.report.inputs import file_inputs, origin_of, remark_findings
-from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, Number, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
@@ -173,11 +172,6 @@ _CHARTS = {
     "harris_map": ("contact", _harris_chart),
     "separation": ("separation", _separation_chart),
 }
-
-
-def write_helical_report(results: HelicalResults, folder: Path) -> Path:
-    """Write report.html beside the figures that lie in FOLDER/figures; return its path."""
-    return write_report(helical_report(results, folder / "figures"), folder)
 
 
 def helical_report(results: HelicalResults, figures: Path) -> Report:

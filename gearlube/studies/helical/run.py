@@ -7,10 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gearlube.studies.helical.figures.catalogue import save_helical_figures
 from gearlube.studies.helical.operating_point import study_attributes
 from gearlube.studies.helical.pair_losses import losses_csv
-from gearlube.studies.helical.report import write_helical_report
 from gearlube.studies.helical.settings import HelicalSettings
 from gearlube.studies.helical.stages import HelicalResults, RunningStudy, StageReport, stages_of
 from gearlube.studies.helical.summary import summary_csv, summary_rows
@@ -106,8 +104,7 @@ def write_helical(results: HelicalResults, folder: Path) -> None:
         write_line_mesh(results.mesh, folder / "line_mesh.nc")
     write_text(summary_csv(summary_rows(results)), folder / "summary.csv")
     if not results.interrupted:
-        save_helical_figures(results.datasets, folder / "figures")
-        write_helical_report(results, folder)
+        results.report(folder)
 
 
 def _solved(

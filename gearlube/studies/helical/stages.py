@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
+from gearlube.report.page import write_report
 from gearlube.studies.helical.film_friction import film_dataset, share_outside
 from gearlube.studies.helical.geometry_dataset import gear_file_geometry
 from gearlube.studies.helical.operating_point import operating_point, pair_attributes
@@ -69,6 +70,22 @@ class HelicalResults:
     mesh: LineMesh | None
     failures: Mapping[str, str]
     interrupted: bool
+
+    def plot(self) -> Any:
+        """Return the first figure for which there are data, a figure of matplotlib."""
+        from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
+
+        one = next(one for one in HELICAL_CATALOGUE.values() if one.needs in self.datasets)
+        return one.draw(self.datasets[one.needs])
+
+    def report(self, folder: str | Path) -> Path:
+        """Write FOLDER/report.html as the command does; return its path."""
+        from gearlube.studies.helical.figures.catalogue import save_helical_figures
+        from gearlube.studies.helical.report import helical_report
+
+        figures = Path(folder) / "figures"
+        save_helical_figures(self.datasets, figures)
+        return write_report(helical_report(self, figures), folder)
 
 
 @dataclass(slots=True, kw_only=True)

@@ -33,6 +33,12 @@ def save_loss_map_figures(dataset: xr.Dataset, folder: Path) -> None:
     save_figure_folder(figures, folder)
 
 
+def first_figure(dataset: xr.Dataset) -> Any:
+    """Return the loss over speed and torque, of a lone speed or torque its sources."""
+    grid = min(dataset.sizes["speed"], dataset.sizes["torque"]) > 1
+    return loss_contours(dataset) if grid else loss_split(dataset)
+
+
 def not_modelled(dataset: xr.Dataset) -> str:
     """Return a sentence on what the losses lack."""
     return f"Not modelled: {dataset.attrs['not_modelled']}."

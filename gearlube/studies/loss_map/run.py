@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import xarray as xr
-
 from drivetrain.steady_temperature import steady_temperatures
+from gearlube.report.result import Result
 from gearlube.studies.loss_map.datasets import loss_map_dataset, with_steady_temperature
 from gearlube.studies.loss_map.exports import write_exports
 from gearlube.studies.loss_map.figures import save_loss_map_figures
@@ -21,7 +20,7 @@ _OF_MAP = 0.1  # share of the work
 
 def run_loss_map(
     settings: LossMapSettings, *, folder: Path | None = None, progress: Progress = no_progress
-) -> xr.Dataset:
+) -> Result:
     """Return the loss torque of an axle over torque, speed and oil temperature, with error bars.
 
     Parameters
@@ -79,6 +78,7 @@ def run_loss_map(
             progress=lambda _, words: progress(1.0, f"steady temperature, {words}"),
         )
         dataset = with_steady_temperature(dataset, settings.cooling, *steady)
+    dataset = Result.of(dataset, "map")
     if folder is not None:
         progress(1.0, "writing files and figures")
         folder.mkdir(parents=True, exist_ok=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,6 @@ import xarray as xr
 
 from gearlube.report.charts import COLOURS, Axis, Line, add_line, line_chart, panels
 from gearlube.report.inputs import file_inputs, remark_findings
-from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.studies.optimise.dataset import measures_of
 from gearlube.studies.optimise.figures import NAMES, error_words
@@ -30,17 +28,6 @@ _LIMITS = (
     "The elastic teeth are those of the pair as it is; shafts, bearings and housing are rigid.",
     "Errors are taken one at a time, with both signs.",
 )
-
-
-def write_optimise_report(dataset: xr.Dataset, folder: Path | str, command_line: str = "") -> Path:
-    """Write report.html into a folder; return its path.
-
-    Examples
-    --------
-    >>> found = xr.load_dataset("gearlube_optimise/optimise.nc")  # doctest: +SKIP
-    >>> write_optimise_report(found, "gearlube_optimise")  # doctest: +SKIP
-    """
-    return write_report(optimise_report(dataset, command_line), folder)
 
 
 def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:

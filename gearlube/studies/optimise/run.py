@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-
-import xarray as xr
+from typing import ClassVar
 
 from gearlube.output.toml_text import toml_text
+from gearlube.report.page import write_report
+from gearlube.report.result import Result, WithResult
 from gearlube.studies.optimise.dataset import optimise_dataset
 from gearlube.studies.optimise.figures import save_optimise_figures
-from gearlube.studies.optimise.report import write_optimise_report
+from gearlube.studies.optimise.report import optimise_report
 from gearlube_core.flank_optimisation.optimise import Optimised, OptimiseSettings, optimise
 from gearlube_core.flank_optimisation.problem import Problem
 from gearlube_core.flank_optimisation.problem_file import OptimisationFile
@@ -20,7 +21,7 @@ from gearlube_core.storage.file_names import pair_stem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OptimiseResults:
+class OptimiseResults(WithResult):
     """Results of an optimisation.
 
     Parameters
@@ -32,7 +33,8 @@ class OptimiseResults:
     """
 
     optimised: Optimised
-    dataset: xr.Dataset
+    dataset: Result
+    shown: ClassVar[str] = "dataset"
 
 
 def run_optimise(
@@ -75,7 +77,9 @@ def run_optimise(
     """
     problem = Problem.of(given)
     found = optimise(problem, settings, folder=folder, jobs=jobs, progress=progress)
-    results = OptimiseResults(optimised=found, dataset=optimise_dataset(found))
+    results = OptimiseResults(
+        optimised=found, dataset=Result.of(optimise_dataset(found), "optimise")
+    )
     if folder is not None:
         progress(1.0, "writing report and figures")
         write_optimise(results, folder, command_line)
@@ -96,5 +100,5 @@ def write_optimise(results: OptimiseResults, folder: Path, command_line: str = "
     write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
     write_dataset(results.dataset, folder / "optimise.nc")
     save_optimise_figures(results.dataset, folder / "figures")
-    write_optimise_report(results.dataset, folder, command_line)
+    write_report(optimise_report(results.dataset, command_line), folder)
     return path

@@ -13,7 +13,7 @@ from gearlube.cli.exit_codes import INTERRUPTED
 from gearlube.cli.oil_option import oil_kelvin
 from gearlube.cli.options import OilTemperatureOption, OverwriteOption, RoughnessOption
 from gearlube.cli.ranges import two_numbers
-from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
+from gearlube.cli.study_run import empty_table, study_run
 from gearlube_core.checks import check_option, check_within
 from gearlube_core.errors import ParameterError
 
@@ -91,8 +91,7 @@ def resonance(
     2-DOF model, with time sweeps as a check. Stopped with Ctrl-C, it writes what was found.
     """
     from gearlube.studies.resonance import run
-    from gearlube.studies.resonance.findings import findings
-    from gearlube.studies.resonance.report import write_resonance_report
+    from gearlube.studies.resonance.report import resonance_report
     from gearlube.studies.resonance.settings import ResonanceSettings, quick_settings
     from gearlube.studies.resonance.summary import summaries
     from gearlube_core.dynamics.hypoid_torsional.parameters import KARAGIANNIS_OIL
@@ -124,8 +123,7 @@ def resonance(
         if found:
             frame.show(_table(found))
         frame.written("resonance.nc", "cycle.nc", "figures")
-        page = write_resonance_report(results.response, out, results.load, command_line())
-        tell_findings(findings(results.response, results.load), page)
+        frame.finish(resonance_report(results.response, out / "figures", results.load))
     if results.interrupted:
         logger.warning("Stopped. The results found so far are in %s.", out)
         raise typer.Exit(INTERRUPTED)

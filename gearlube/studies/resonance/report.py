@@ -11,7 +11,6 @@ import xarray as xr
 from gearlube.plotting.style import GREY
 from gearlube.report.charts import Axis, Line, add_line, line_chart, mark_level, panels
 from gearlube.report.inputs import origin_of
-from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.resonance.figures.catalogue import RESONANCE_CATALOGUE
@@ -47,24 +46,7 @@ _COLUMNS = (
 )
 
 
-def write_resonance_report(
-    response: xr.Dataset, folder: Path | str, load: xr.Dataset | None = None, command_line: str = ""
-) -> Path:
-    """Write report.html beside the figures that lie in FOLDER/figures; return its path.
-
-    Examples
-    --------
-    >>> found = xr.load_dataset("gearlube_resonance/resonance.nc")  # doctest: +SKIP
-    >>> write_resonance_report(found, "gearlube_resonance")  # doctest: +SKIP
-    """
-    folder = Path(folder)
-    report = resonance_report(response, folder / "figures", load, command_line)
-    return write_report(report, folder)
-
-
-def resonance_report(
-    response: xr.Dataset, figures: Path, load: xr.Dataset | None = None, command_line: str = ""
-) -> Report:
+def resonance_report(response: xr.Dataset, figures: Path, load: xr.Dataset | None = None) -> Report:
     """Return the report of a resonance study; `figures` is the folder of its pictures."""
     attributes = response.attrs
     charts: dict[str, Any] = {}
@@ -89,11 +71,7 @@ def resonance_report(
         tables=[_table(response)] if "model" in response else [],
         inputs=_inputs(response),
         limits=_LIMITS,
-        facts=[
-            (name, text)
-            for name, text in (("command", command_line), ("source", str(attributes["source"])))
-            if text
-        ],
+        facts=[("source", str(attributes["source"]))] if attributes["source"] else [],
         files=("resonance.nc", "cycle.nc", *(() if load is None else ("load.nc",)), "figures/"),
     )
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from gearlube.report.page import write_report
 from gearlube.studies.resonance.cycle_dataset import cycle_dataset
 from gearlube.studies.resonance.datasets import resonance_dataset
 from gearlube.studies.resonance.figures import save_resonance_figures
@@ -99,6 +100,20 @@ class ResonanceResults:
     cycle: xr.Dataset
     load: xr.Dataset | None = None
     interrupted: bool = False
+
+    def plot(self) -> Any:
+        """Return the first figure, a figure of matplotlib."""
+        from gearlube.studies.resonance.figures.response_curves import response_curves
+
+        return response_curves(self.response)
+
+    def report(self, folder: str | Path) -> Path:
+        """Write FOLDER/report.html as the command does; return its path."""
+        from gearlube.studies.resonance.report import resonance_report
+
+        figures = Path(folder) / "figures"
+        save_resonance_figures(self.response, self.cycle, figures)
+        return write_report(resonance_report(self.response, figures, self.load), folder)
 
 
 def run_resonance(

@@ -334,7 +334,6 @@ def _attributes(settings: RunupSettings, record: RampRecord) -> dict[str, object
     gear, engine = engine_orders(settings)
     return {
         "title": f"{settings.name} of a lubricated hypoid axle",
-        "study": "runup",
         "ramp": settings.name,
         "gearlube_version": __version__,
         "axle": car.name,

@@ -107,14 +107,24 @@ def write_runup_report(
     >>> write_runup_report([load_runup("gearlube_runup")], "gearlube_runup")  # doctest: +SKIP
     """
     folder = Path(folder)
-    drawn = {
+    drawn = drawn_figures(datasets)
+    save_figure_folder(drawn, folder / "figures")
+    return write_report(runup_report(datasets, drawn, command_line, animations), folder)
+
+
+def report_of_one(dataset: xr.Dataset) -> Report:
+    """Return the report of one ramp."""
+    return runup_report([dataset], drawn_figures([dataset]))
+
+
+def drawn_figures(datasets: Sequence[xr.Dataset]) -> dict[str, Any]:
+    """Return all figures of ramps for which there are data, by name."""
+    return {
         _name(dataset, one.name): one.draw(dataset)
         for dataset in datasets
         for one in CATALOGUE
         if one.needs in dataset.variables
     }
-    save_figure_folder(drawn, folder / "figures")
-    return write_report(runup_report(datasets, drawn, command_line, animations), folder)
 
 
 def _name(dataset: xr.Dataset, name: str) -> str:

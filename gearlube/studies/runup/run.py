@@ -5,8 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-import xarray as xr
-
+from gearlube.report.result import Result
 from gearlube.studies.runup.dataset import runup_dataset
 from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.settings import RunupSettings
@@ -19,7 +18,7 @@ _OF_MARCH = 0.9  # share of the work
 
 def run_runup(
     settings: RunupSettings, *, folder: Path | str | None = None, progress: Progress = no_progress
-) -> xr.Dataset:
+) -> Result:
     """Run an axle through a continuous speed ramp; return its record, orders and spectra.
 
     Parameters
@@ -63,7 +62,7 @@ def run_runup(
     parts = None if out is None else out / "parts"
     record = record_ramp(settings, folder=parts, progress=part_of(progress, 0.0, _OF_MARCH))
     progress(_OF_MARCH, "orders and spectra")
-    dataset = runup_dataset(settings, record)
+    dataset = Result.of(runup_dataset(settings, record), "runup")
     if out is not None:
         progress(1.0, "writing the file")
         out.mkdir(parents=True, exist_ok=True)
@@ -72,7 +71,7 @@ def run_runup(
     return dataset
 
 
-def load_runup(path: Path | str) -> xr.Dataset:
+def load_runup(path: Path | str) -> Result:
     """Read the results of a run-up or coast-down: runup.nc, coastdown.nc, or the folder it is in.
 
     Examples
@@ -80,4 +79,4 @@ def load_runup(path: Path | str) -> xr.Dataset:
     >>> load_runup("gearlube_runup")["bearing_force"]  # doctest: +SKIP
     """
     path = Path(path)
-    return read_dataset(path / FILES["run-up"] if path.is_dir() else path)
+    return Result.of(read_dataset(path / FILES["run-up"] if path.is_dir() else path), "runup")

@@ -12,6 +12,7 @@ import xarray as xr
 from gearlube.output.csv_text import csv_text, number_text
 from gearlube.output.units import heading
 from gearlube.report.churning import REGIME, churning_regime
+from gearlube.report.result import Result
 from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset, write_text
 from gearlube_core.units import kmh_to_ms
@@ -220,7 +221,7 @@ def save(dataset: xr.Dataset, directory: Path) -> Path:
     return path
 
 
-def load_sweep(path: Path | str) -> xr.Dataset:
+def load_sweep(path: Path | str) -> Result:
     """Read the results of a sweep: sweep.nc, or the folder it is in.
 
     `.sel(speed_kmh=60, preload=2500)` works on the dataset.
@@ -231,7 +232,9 @@ def load_sweep(path: Path | str) -> xr.Dataset:
     """
     path = Path(path)
     dataset = read_dataset(path / "sweep.nc" if path.is_dir() else path)
-    return dataset.set_xindex("speed_kmh") if "speed_kmh" not in dataset.xindexes else dataset
+    if "speed_kmh" not in dataset.xindexes:
+        dataset = dataset.set_xindex("speed_kmh")
+    return Result.of(dataset, "sweep")
 
 
 def summary_table(dataset: xr.Dataset) -> Any:

@@ -19,6 +19,7 @@ import xarray as xr
 import drivetrain
 from drivetrain.axle_file.axle_file import CarAxle
 from gearlube.report.films import film_model_attributes
+from gearlube.report.result import Result
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
     car_axle_at,
@@ -124,7 +125,7 @@ def run_sweep(
     progress: Progress = no_progress,
     command_line: str = "",
     model: SweepModel = AXLE_MODEL,
-) -> xr.Dataset:
+) -> Result:
     """Run the axle FMU over a grid of vehicle speeds and bearing preloads; return all results.
 
     Parameters
@@ -264,6 +265,7 @@ def run_sweep(
         crank = crank_frequencies(car_axle.driveline, speeds)
         sweep["crank_frequency"] = ("speed", crank)
     described(with_churning_regime(sweep, of_axle.axle))
+    sweep = Result.of(sweep, "sweep")
     if folder is not None:
         save(sweep, folder)
     return sweep

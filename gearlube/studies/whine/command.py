@@ -12,7 +12,7 @@ from rich.table import Table
 from gearlube.cli.example import is_shipped, print_example
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.ranges import numbers_from
-from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
+from gearlube.cli.study_run import empty_table, study_run
 from gearlube_core.checks import check_within
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -85,7 +85,7 @@ def whine(
         helical = is_shipped(_HELICAL, gear)
         print_example(_HELICAL if helical else _HYPOID, gear)
         return
-    from gearlube.studies.whine.report import findings, write_whine_report
+    from gearlube.studies.whine.report import whine_report
     from gearlube.studies.whine.run import WhineSettings, run_whine, whine_rows
     from gearlube_core.flank_optimisation.problem import read_gear_file
     from gearlube_core.hypoid_contact.sensitivity.series_rates import SeriesSettings
@@ -124,8 +124,7 @@ def whine(
         rows = whine_rows(dataset)
         run.show(_table(file.name, torque, rows[:_SHOWN]))
         run.written("whine.nc", "whine.csv", "figures")
-        page = write_whine_report(dataset, out, command_line())
-        tell_findings(findings(dataset), page)
+        run.finish(whine_report(dataset))
 
 
 def _table(name: str, torque: float, rows: list[WhineRow]) -> Table:

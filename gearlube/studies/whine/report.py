@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from textwrap import wrap
 from typing import Any, NamedTuple
 
@@ -13,7 +12,6 @@ from gearlube.plotting.words import parameter_words, tolerance_words
 from gearlube.report.charts import Axis, Line, heat_map, line_chart
 from gearlube.report.inputs import file_inputs, origin_of, remark_findings
 from gearlube.report.numbers import quantity_text
-from gearlube.report.page import write_report
 from gearlube.report.parts import (
     GOOD,
     NOTE,
@@ -213,18 +211,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
     return found
 
 
-def write_whine_report(dataset: xr.Dataset, folder: Path | str, command_line: str = "") -> Path:
-    """Write report.html into a folder; return its path.
-
-    Examples
-    --------
-    >>> found = xr.load_dataset("gearlube_whine/whine.nc")  # doctest: +SKIP
-    >>> write_whine_report(found, "gearlube_whine")  # doctest: +SKIP
-    """
-    return write_report(whine_report(dataset, command_line), folder)
-
-
-def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
+def whine_report(dataset: xr.Dataset) -> Report:
     """Return the report of a whine study."""
     attributes = dataset.attrs
     speed = _RPM * dataset["pinion_speed"].values
@@ -256,7 +243,6 @@ def whine_report(dataset: xr.Dataset, command_line: str = "") -> Report:
         tables=[_table(dataset, int(order)) for order in dataset["order"].values],
         inputs=[*settings, *file_inputs(file)],
         limits=_LIMITS,
-        facts=[("command", command_line)] if command_line else [],
         files=("whine.nc", "whine.csv", "figures/whine.png"),
     )
 

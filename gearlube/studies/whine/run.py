@@ -11,6 +11,7 @@ import xarray as xr
 
 from gearlube.output.csv_text import csv_text
 from gearlube.report.inputs import remark_attributes
+from gearlube.report.result import Result
 from gearlube.studies.whine.figures import whine_figure
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_positive, check_within
@@ -114,7 +115,7 @@ def run_whine(
     folder: Path | None = None,
     jobs: int | None = None,
     progress: Progress = no_progress,
-) -> xr.Dataset:
+) -> Result:
     """Return the whine orders of a hypoid pair over speed, and how each setting changes them.
 
     The drive flanks' loaded contact and its derivatives become a mesh table with derivatives. The
@@ -159,6 +160,7 @@ def run_whine(
     progress(1.0, "periodic motions")
     pair = _pair(file, table, settings)
     dataset = _dataset(file, settings, table, pair, _motions(pair, table, settings))
+    dataset = Result.of(dataset, "whine")
     if folder is not None:
         write_whine(dataset, folder)
     return dataset

@@ -76,8 +76,8 @@ def solve_and_show(
     `solve` takes the progress callback and writes its files into `out`, which is or becomes a
     folder of `study`.
     """
-    from gearlube.studies.films.findings import findings
-    from gearlube.studies.films.report import write_film_report
+    from gearlube.report.page import write_report
+    from gearlube.studies.films.report import film_report
     from gearlube.studies.films.results import dataset_file
 
     with (
@@ -87,7 +87,8 @@ def solve_and_show(
         dataset = solve(progress)
     _show(dataset)
     logger.info("Results: %s, %s", dataset_file(dataset, out), out / "figures")
-    tell_findings(findings(dataset), write_film_report(dataset, out, command_line()))
+    report = film_report(dataset, out / "figures", command_line())
+    tell_findings(report.findings, write_report(report, out))
     outcome = str(dataset.attrs["outcome"])
     exit_if_failed("" if dataset.attrs["converged"] else outcome)
     logger.info("%s", outcome)

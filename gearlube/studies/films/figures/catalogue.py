@@ -271,17 +271,16 @@ def save_film_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") ->
     `prefix` begins the names of the files.
     """
     directory.mkdir(parents=True, exist_ok=True)
-    catalogue = CATALOGUES[dataset.attrs["contact"]]
     files = []
-    for name in drawn_figures(dataset):
+    for name, one in drawn_figures(dataset).items():
         path = directory / f"{prefix}{name}.png"
-        write_figure(catalogue[name].draw(dataset), path)
+        write_figure(one.draw(dataset), path)
         files.append(path)
     return files
 
 
-def drawn_figures(dataset: xr.Dataset) -> list[str]:
-    """Return the names of the figures for which a dataset holds data."""
+def drawn_figures(dataset: xr.Dataset) -> dict[str, Picture]:
+    """Return the figures for which a dataset holds data, by name."""
     of = dataset.attrs
     left_out = set()
     if of["contact"] in ("line", "point") and "temperature" not in dataset:
@@ -290,4 +289,4 @@ def drawn_figures(dataset: xr.Dataset) -> list[str]:
         left_out.add("shear")
     if of["contact"] == "helical_cycle" and dataset.sizes["step"] < 2:
         left_out.add("cycle_map")
-    return [name for name in CATALOGUES[of["contact"]] if name not in left_out]
+    return {name: one for name, one in CATALOGUES[of["contact"]].items() if name not in left_out}
