@@ -29,8 +29,10 @@ import gearlube as gl
 
 The most used names are attributes of `gl`, the others of its modules `gl.oil`, `gl.film` and so
 on. A module is imported when one of its names is first used.
-All quantities are in SI units; other units stand in names (`speed_kmh`). Names that are not on this
-page may change without notice. Whole scripts stand in `examples/`:
+Settings and models are in SI units; other units stand in names (`speed_kmh`). A variable of a
+result has its unit in `attrs["units"]`: maps and cycles are in rpm, degC and km/h, as their files
+and figures are. `result.si()` has all of it in SI. Names that are not on this page may change
+without notice. Whole scripts stand in `examples/`:
 [an axle under a torque ramp](../examples/axle_torque_ramp.py),
 [a film with your own oil](../examples/film_with_own_oil.py),
 [from a helical gear to its transmission error](../examples/helical_transmission_error.py),
@@ -66,10 +68,34 @@ def groups() -> list[Group]:
     return found
 
 
+# module and public name by the name inside
+ORIGINS = {
+    inner: (module, name)
+    for module, stub in STUBS.items()
+    for inner, name in re.findall(r"(\w+) as (\w+)", stub.read_text(encoding="utf-8"))
+}
+
+
 def public(module: str, name: str) -> Any:
     """Return what a public name stands for."""
     of = gearlube if module == "gl" else getattr(gearlube, module.removeprefix("gl."))
     return getattr(of, name)
+
+
+def publicly(line: str) -> str:
+    """Return an import of inner modules as one of public names, where all its names are."""
+    found = re.fullmatch(
+        r"(>>> )from (?:gearlube_core|drivetrain|fmu_src|gearlube)\.\S+ import (.+)", line
+    )
+    names = found[2].split(", ") if found else []
+    if found is None or not set(names) <= ORIGINS.keys():
+        return line
+    parts: dict[str, list[str]] = {}
+    for inner in names:
+        module, name = ORIGINS[inner]
+        shown = name if name == inner else f"{name} as {inner}"
+        parts.setdefault(module.replace("gl", "gearlube", 1), []).append(shown)
+    return "\n".join(f"{found[1]}from {one} import {', '.join(of)}" for one, of in parts.items())
 
 
 def example(module: str, name: str) -> str:
@@ -78,7 +104,8 @@ def example(module: str, name: str) -> str:
     lines = []
     for part in doctest.DocTestParser().get_examples(text):
         source = part.source.removesuffix("\n").splitlines()
-        lines += [f"{'>>>' if k == 0 else '...'} {line}" for k, line in enumerate(source)]
+        typed = [f"{'>>>' if k == 0 else '...'} {line}" for k, line in enumerate(source)]
+        lines += map(publicly, typed)
         lines += part.want.splitlines()
     return "\n".join(lines)
 

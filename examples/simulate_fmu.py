@@ -8,8 +8,7 @@ import numpy as np
 from fmpy import simulate_fmu
 from numpy.typing import NDArray
 
-from fmu_src.build import cached_hypoid_axle
-from gearlube_core.units import celsius_to_kelvin, rpm_to_rads
+import gearlube as gl
 
 STEP = 1e-3  # s, communication step
 OUTPUTS = ["pinion.speed", "efficiency", "axle.efficiency", "mesh.force"]
@@ -23,12 +22,12 @@ def simulate(fmu: Path) -> NDArray[np.void]:
     names = ("time", "pinion.torque", "wheel.torque", "oil.temperature")
     inputs = np.zeros(len(TIMES), dtype=[(name, float) for name in names])
     inputs["time"], inputs["pinion.torque"] = TIMES, TORQUES
-    inputs["wheel.torque"], inputs["oil.temperature"] = LOAD, celsius_to_kelvin(60.0)
+    inputs["wheel.torque"], inputs["oil.temperature"] = LOAD, gl.celsius_to_kelvin(60.0)
     return simulate_fmu(
         str(fmu),
         stop_time=float(TIMES[-1]),
         output_interval=STEP,
-        start_values={"bearing.preload": 2500.0, "pinion.speed_start": rpm_to_rads(1900.0)},
+        start_values={"bearing.preload": 2500.0, "pinion.speed_start": gl.rpm_to_rads(1900.0)},
         input=inputs,
         output=OUTPUTS,
     )
@@ -36,7 +35,7 @@ def simulate(fmu: Path) -> NDArray[np.void]:
 
 def main() -> NDArray[np.void]:
     """Run the axle FMU of this installation; the first time it is built."""
-    return simulate(cached_hypoid_axle())
+    return simulate(gl.cached_hypoid_axle())
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Model
 
-from fmu_src.build import cached_hypoid_axle
+import gearlube as gl
 
 INPUTS = {"pinion.torque": 90.0, "wheel.torque": 160.0, "oil.temperature": 333.15}  # N.m, N.m, K
 VIBRATION = "pinion.velocity.x"  # its rate is the acceleration of the pinion across its axis
@@ -75,7 +75,9 @@ def main(fmu: Path) -> tuple[float, np.ndarray, np.ndarray]:
 
 
 if __name__ == "__main__":
-    level, gradient, differences = main(Path(sys.argv[1]) if sys.argv[1:] else cached_hypoid_axle())
+    level, gradient, differences = main(
+        Path(sys.argv[1]) if sys.argv[1:] else gl.cached_hypoid_axle()
+    )
     print(f"acceleration {level:.3f} m/s2")
     for name, exact, other in zip(INPUTS, gradient, differences, strict=True):
         print(f"by {name}: {exact:+.8f}, by differences {other:+.8f}")

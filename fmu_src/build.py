@@ -58,6 +58,11 @@ def cached_hypoid_axle(
     Notes
     -----
     The folder's name changes with everything that decides the results.
+
+    Examples
+    --------
+    >>> cached_hypoid_axle(axle="my_axle.toml").name  # doctest: +SKIP
+    'HypoidAxle.fmu'
     """
     from fmu_src.identity import guid_of
     from fmu_src.native.build import NativeOptions

@@ -24,8 +24,9 @@ The most used names are attributes of `gl`. All others are in these modules:
 `gl.studies`          studies: settings, runs, readers of results
 ====================  ============================================================
 
-Arguments are in SI units (N, m, rad/s, K, Pa), unless a name says otherwise (`speed_kmh`). Each
-variable of a dataset has the attribute `units`.
+Settings and models are in SI units (N, m, rad/s, K, Pa); other units stand in names (`speed_kmh`).
+A variable of a result has its unit in `attrs["units"]`: maps and cycles are in rpm, degC and km/h,
+as their files and figures are. `losses.si()` has all of it in SI.
 The stubs `*.pyi` list the names, each with the module that defines it. A module is imported when
 one of its names is first used. docs/api.md describes each name and gives an example.
 

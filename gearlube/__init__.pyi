@@ -43,6 +43,7 @@ from gearlube.output.exports.export import export_results as export_results
 # -- FMUs
 from fmu_src.build import build_hypoid_axle as build_hypoid_axle
 from fmu_src.build import build_helical_pair as build_helical_pair
+from fmu_src.build import cached_hypoid_axle as cached_hypoid_axle
 
 # -- Units and errors
 from gearlube_core.units import celsius_to_kelvin as celsius_to_kelvin

@@ -6,6 +6,8 @@ from gearlube_core.bearings.tapered_roller_bearing import (
     TaperedRollerBearing as TaperedRollerBearing,
 )
 
+from gearlube_core.bearings.standalone import RotorOnBearing as RotorOnBearing
+
 # -- Trains of bodies and elements
 from gearlube_core.bearings.bearing_under_load import bearing_under_load as bearing_under_load
 from gearlube_core.bearings.element_loads import element_loads as element_loads

@@ -28,6 +28,11 @@ from gearlube_core.rexs.exchange import write_rexs as write_rexs
 from gearlube_core.mesh_table.table import MeshTable as MeshTable
 from gearlube_core.mesh_table.netcdf import shipped_mesh_table as shipped_mesh_table
 
+# -- Checks of a hypoid pair
+from gearlube_core.hypoid_contact.refusal import check_pair as check_pair
+from gearlube_core.hypoid_contact.refusal import pair_warnings as pair_warnings
+from gearlube_core.hypoid_geometry.flank.tooth_form import tooth_form as tooth_form
+
 # -- Design of a hypoid pair
 from gearlube_core.hypoid_design.blank_file import BlankFile as BlankFile
 

@@ -17,6 +17,8 @@ from gearlube_core.housings.model_files import read_reduced_model as read_reduce
 from gearlube_core.housings.reduced_model import InterfaceNode as InterfaceNode
 from gearlube_core.housings.reduced_model import ReducedModel as ReducedModel
 from gearlube_core.dynamics.train.part import Element as Element
+from gearlube_core.kernels.jit import kernel as kernel
+from gearlube_core.number import Number as Number
 from gearlube_core.dynamics.train.elements.port import Port as Port
 from gearlube_core.dynamics.train.elements.held_port import HeldPort as HeldPort
 from gearlube_core.dynamics.train.elements.held_port import SpeedHolder as SpeedHolder

@@ -27,7 +27,12 @@ _Constants = TypeVar("_Constants", bound=tuple[Any, ...])  # a NamedTuple
 
 
 class Number(NamedTuple):
-    """A number in the closed interval [low, high]."""
+    """A number in the closed interval [low, high].
+
+    Examples
+    --------
+    >>> Number("N.m", 0.0, 1e4).check("torque", 5.0)
+    """
 
     unit: str  # "1" for a pure number
     low: float

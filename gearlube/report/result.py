@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
@@ -10,9 +11,11 @@ from typing import Any, ClassVar, NamedTuple, Self
 import xarray as xr
 from xarray.plot.accessor import DatasetPlotAccessor
 
+from gearlube.output.units import unit_of
 from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.page import write_report
 from gearlube_core.errors import ParameterError
+from gearlube_core.units import ZERO_CELSIUS
 
 _STUDY = "study"  # attribute of a dataset
 
@@ -29,6 +32,22 @@ class _Shown(NamedTuple):
     pictured: bool = False
 
 
+# unit of a result, in the spelling of `unit_text`: SI unit, factor, offset
+_SI = {
+    "rpm": ("rad/s", math.pi / 30.0, 0.0),
+    "degC": ("K", 1.0, ZERO_CELSIUS),
+    "km/h": ("m/s", 1.0 / 3.6, 0.0),
+    "h": ("s", 3600.0, 0.0),
+    "ms": ("s", 1e-3, 0.0),
+    "mm": ("m", 1e-3, 0.0),
+    "um": ("m", 1e-6, 0.0),
+    "kJ": ("J", 1e3, 0.0),
+    "MPa": ("Pa", 1e6, 0.0),
+    "GPa": ("Pa", 1e9, 0.0),
+    "W/mm2": ("W/m2", 1e6, 0.0),
+    "%": ("1", 0.01, 0.0),
+}
+_UNIT_IN_NAME = ("_kmh", "_rpm", "_degc")
 _SHOWN = {
     "map": _Shown(
         "studies.loss_map.figures:first_figure", "studies.loss_map.report:loss_map_report"
@@ -73,6 +92,13 @@ class Result(xr.Dataset):
 
     It is an `xarray.Dataset` in all else; what `sel`, `isel` and the like return is a `Result` too.
     `plot.scatter` and the other methods of xarray's `plot` are there.
+
+    Examples
+    --------
+    >>> losses = xr.Dataset(coords={"speed": ("speed", [3000.0], {"units": "rpm"})})
+    >>> found = Result.of(losses, "map").si()["speed"]
+    >>> found.values.round(1), found.attrs["units"]
+    (array([314.2]), 'rad/s')
     """
 
     __slots__ = ()
@@ -88,6 +114,17 @@ class Result(xr.Dataset):
     def plot(self) -> Any:  # type: ignore[override]
         """The first figure of the study: `result.plot()` is a figure of matplotlib."""
         return _Plot(self)
+
+    def si(self) -> xr.Dataset:
+        """Return a dataset with all values in SI units, except those whose name has a unit."""
+        found = xr.Dataset(self.data_vars, self.coords, self.attrs)
+        for name, one in found.variables.items():
+            unit, factor, offset = _SI.get(unit_of(one) or "", ("", 1.0, 0.0))
+            if unit and not str(name).endswith(_UNIT_IN_NAME):
+                changed = one.dims, one.values * factor + offset, {**one.attrs, "units": unit}
+                assign = found.assign_coords if name in found.coords else found.assign
+                found = assign({name: changed})
+        return found
 
     def report(self, folder: str | Path) -> Path:
         """Write FOLDER/report.html as the command of the study does; return its path.

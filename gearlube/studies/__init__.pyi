@@ -67,6 +67,7 @@ from gearlube.studies.sweep.report import write_sweep_report as write_sweep_repo
 
 # -- Run-up and coast-down
 from gearlube.studies.runup.run import load_runup as load_runup
+from gearlube.studies.runup.animation.dataset import animate_ramp as animate_ramp
 from gearlube.studies.sound.settings import SoundSettings as SoundSettings
 from gearlube.studies.sound.run import run_sound as run_sound
 

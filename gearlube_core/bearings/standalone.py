@@ -64,6 +64,11 @@ class RotorOnBearing:
         [rad/s].
     eta0, alpha : float
         Viscosity [Pa s] and pressure-viscosity coefficient [1/Pa] of the oil.
+
+    Examples
+    --------
+    >>> RotorOnBearing.mohammadpour_2015().load  # N
+    1500.0
     """
 
     bearing: TaperedRollerBearing

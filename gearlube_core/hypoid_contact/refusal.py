@@ -197,6 +197,10 @@ def pair_warnings(file: HypoidGearFile) -> list[str]:
     """Return warnings about a gear file whose flanks meet, one sentence each.
 
     Misfits that only shift the contact, edge contact without load, and a large transmission error.
+
+    Examples
+    --------
+    >>> pair_warnings(HypoidGearFile.named("mohammadpour_2015"))  # doctest: +SKIP
     """
     unsound = [one for group in misfits_by_cost(file) for one in group if not one.is_sound]
     found = [str(one) for one in unsound]

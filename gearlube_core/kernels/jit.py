@@ -17,7 +17,16 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def kernel(function: _Function) -> _Function:
-    """Compile `function` with numba on first call and keep the machine code on disk."""
+    """Compile `function` with numba on first call and keep the machine code on disk.
+
+    Examples
+    --------
+    >>> @kernel
+    ... def squared(x):
+    ...     return x * x
+    >>> squared(3.0)  # doctest: +SKIP
+    9.0
+    """
     return compiled(function, error_model="numpy")
 
 

@@ -110,7 +110,14 @@ def viscosity_cooling(oil: FilmOil, p: float, temperature: float) -> float:
 
 @kernel
 def pressure_viscosity(oil: FilmOil) -> float:
-    """Return alpha, the slope of ln eta with pressure at ambient pressure [1/Pa]."""
+    """Return alpha, the slope of ln eta with pressure at ambient pressure [1/Pa].
+
+    Examples
+    --------
+    >>> from gearlube_core.oil.film_oil_data import film_oil
+    >>> round(pressure_viscosity(film_oil(eta0=0.05, alpha=15e-9, eyring_stress=5e6)), 12)
+    1.5e-08
+    """
     return log_viscosity(oil.viscosity, 0.0, 1.0)[1]
 
 

@@ -60,3 +60,13 @@ def test_what_shows_a_study_is_there(study):
     shown = result._SHOWN[study]
     for place in filter(None, (shown.figures, shown.report)):
         assert result._named(place) is not None
+
+
+def test_a_result_in_si_units_has_no_other(losses):
+    si = losses.si()
+    assert si["speed"].values == pytest.approx([100.0, 200.0])  # as in the settings
+    assert si["temperature"].values == pytest.approx([353.15])
+    np.testing.assert_array_equal(si["loss_torque"], losses["loss_torque"])
+    assert {one.attrs.get("units") for one in si.variables.values()} <= {
+        "rad/s", "K", "N.m", "W", "1", None,
+    }  # fmt: skip

@@ -112,6 +112,10 @@ def tooth_form(file: HypoidGearFile, role: Role, stations: int = _STATIONS) -> T
     ------
     ParameterError
         When the cutter leaves no flank, or none that is sound at mid profile.
+
+    Examples
+    --------
+    >>> tooth_form(HypoidGearFile.named("mohammadpour_2015"), "pinion").report()  # doctest: +SKIP
     """
     count = int(check_within("stations", stations, 2, 1000))
     tooth = Tooth.from_file(file, role)
