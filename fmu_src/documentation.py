@@ -88,13 +88,17 @@ def variables_markdown(definition: Definition) -> str:
         numbers = [
             cells for cells in rows if cells[0].removesuffix(".number") in named - {cells[0]}
         ]
-        shown = _together(cells for cells in rows if cells not in (*rates, *numbers))
-        used = [k for k in range(len(HEADINGS)) if any(cells[k] for cells in shown)]
-        lines += [f"### {title}", "", "| " + " | ".join(HEADINGS[k] for k in used) + " |"]
+        shown = [
+            (f"`{name}`", f"{unit} ({display})" if display else unit, *others)
+            for name, unit, display, *others in _together(
+                cells for cells in rows if cells not in (*rates, *numbers)
+            )
+        ]
+        heads = (HEADINGS[0], f"{HEADINGS[1]} (shown in)", *HEADINGS[3:])
+        used = [k for k in range(len(heads)) if any(cells[k] for cells in shown)]
+        lines += [f"### {title}", "", "| " + " | ".join(heads[k] for k in used) + " |"]
         lines += ["|" + "---|" * len(used)]
-        for name, *others in shown:
-            cells = (f"`{name}`", *others)
-            lines += ["| " + " | ".join(cells[k] for k in used) + " |"]
+        lines += ["| " + " | ".join(cells[k] for k in used) + " |" for cells in shown]
         lines += [""]
         if numbers:
             lines += [

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.stats import chi2, norm
 
+from docs.film_model.make import domain_rows
 from docs.page import DOCS, IMAGES, Page
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
 from gearlube.studies.bearing.figures import LAW_NAMES
@@ -192,11 +193,11 @@ def needed(page: Page) -> None:
     layers = [1e6 * _root(point, "inlet_layer", 1e-8, 1e-3) for point in POINTS]
     rises = [_root(point, "temperature_rise", 0.0, 60.0) for point in POINTS]
     page.fill(
-        "their factor for a thin inlet layer): {} of oil on both",
+        "`--inlet-layer-um`: {} of oil on both",
         f"{min(layers):.0f} to {max(layers):.0f} µm",
     )
     page.fill(
-        "oil hotter than the outer ring by {} would explain it",
+        "oil hotter than the outer ring by {} (`--temperature-rise`)",
         f"{min(rises):.0f} to {max(rises):.0f} K",
     )
 
@@ -262,8 +263,7 @@ def film_model(page: Page) -> None:
                 f"{found[f'{short}_max_percent']:.2f}", f"{bound:.2f}",
             ])  # fmt: skip
     page.rows("contacts | number | quantity", rows)
-    domain = [[name, f"{low:g}", f"{high:g}"] for name, (low, high, _) in p["box"].items()]
-    page.rows("quantity | least | most", domain)
+    page.rows("quantity | least | most", domain_rows(model))
     solves, over, rest = p["solves"], p["bounds"]["fresh_violations"], p["grid_error_left_percent"]
     page.fill(
         "- {} contacts for training and {} of the domain for the bounds; {} that the shipped "

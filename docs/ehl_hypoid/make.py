@@ -216,7 +216,7 @@ def put_findings(page: Page, drive: list[RatioRow], sets: dict[str, xr.Dataset])
         ("the largest pressure changes by {} (spikes", [p_max]),
         ("central films in time are {} to {} of the steady ones",
          [f"{squeeze.least:.2f}", f"{squeeze.largest:.2f}"]),
-        ("speed is larger, and the mean central film by {} %", [f"{thicker:.0f}"]),
+        ("Counted against it the mean central film is {} % thicker", [f"{thicker:.0f}"]),
     ):  # fmt: skip
         page.fill(words, *values)
 

@@ -99,6 +99,16 @@ def errors(columns: dict[str, Array]) -> tuple[Array, Array]:
     return 100.0 * (film - 1.0), 100.0 * (friction - 1.0)
 
 
+def domain_rows(model: FilmModel) -> list[list[str]]:
+    """Return quantity, least and most; other models have only what differs from the flanks'."""
+    flanks = FilmModel.named(MODEL).provenance["box"] if model.name != MODEL else {}
+    return [
+        [name, f"{ends[0]:g}", f"{ends[1]:g}"]
+        for name, ends in model.provenance["box"].items()
+        if ends != flanks.get(name)
+    ]
+
+
 def put_errors(page: Page, model: FilmModel, tests: Tests, machine: str) -> None:
     """Put in errors [%] beside their bounds [%], the domain, and what the grid's part misses."""
     bounds = (100.0 * model.film_bound, 100.0 * model.friction_bound)
@@ -112,8 +122,7 @@ def put_errors(page: Page, model: FilmModel, tests: Tests, machine: str) -> None
             rows.append([count, None, *(f"{one:.2f}" for one in found), share])
     page.cells("Contacts | Number", rows, first=1)
     p = model.provenance
-    domain = ([name, f"{low:g}", f"{high:g}"] for name, (low, high, _) in p["box"].items())
-    page.rows("Quantity | Least", domain)
+    page.rows("Quantity | Least", domain_rows(model))
     page.fill("checksum {}, {}.\n\n", model.checksum, p["date"])
     limits = limit_in_words(tests["fresh"]["friction_solved"], f"films that the {machine}")
     begins = "A limiting shear stress of "

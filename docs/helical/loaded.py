@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from docs.helical.cases import HE, LINE_LOAD, SPUR
+from docs.helical.cases import HE, LINE_LOAD, SPUR, line_lengths
 from gearlube_core.helical_contact.contact_dataset import contact_dataset, line_mesh
 from gearlube_core.helical_contact.loaded_contact import LoadedSettings, MeshPosition
 from gearlube_core.helical_contact.mesh_cycle import CycleSettings, run_cycle
@@ -148,3 +148,11 @@ def error_rows(datasets: Sequence[xr.Dataset]) -> list[list[str]]:
             cells.append(f"{value:.2f}" if there else "-")
         rows.append(cells)
     return rows
+
+
+def table_density(mesh: LineMesh, torque: float) -> float:
+    """Return the mean tangent density of a line mesh at one of its torques [N/m2]."""
+    level = int(np.argmin(np.abs(mesh.torque - torque)))
+    lengths = line_lengths(mesh.phase, mesh.lines)
+    part = lengths[..., None] / mesh.station.size
+    return float((mesh.density[level] * part).sum() / lengths.sum())

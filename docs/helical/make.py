@@ -18,16 +18,16 @@ from docs.helical.cases import HIGH, Evidence, density, own_density, steady
 from docs.helical.claims_mesh import MESH
 from docs.helical.claims_motion import MOTION
 from docs.helical.claims_thesis import THESIS
-from docs.helical.film import along_row, formula_rows, stable_words
+from docs.helical.film import along_row, stable_words
 from docs.helical.loaded import (
     bodies,
     crowned,
     error_rows,
     iso_words,
     spur_harris,
+    table_density,
     torque_rows,
 )
-from docs.helical.loaded_claims import loaded_claims_rows, table_density
 from docs.helical.separation import (
     branch_rows,
     crowned_curves,
@@ -136,9 +136,6 @@ def main(work: Path) -> None:
     page.cells("Error, p-p, um", error_rows(every), first=1)
     logger.info("film friction")
     page.cells("Line loads", [along_row(None), along_row(done.mesh)], first=1)
-    means, ranges = formula_rows()
-    page.rows("rpm | oil, degC", means)
-    page.fill("Here over Schlenk {} to {}, over Xu and Kahraman {} to {}.", *ranges)
     page.fill(
         "variation is {} times as large, with 1 % damping at {} times, or if the damping ratio is "
         "below {}. This happens at a mesh frequency of {} Hz,",
@@ -147,7 +144,6 @@ def main(work: Path) -> None:
     logger.info("tooth separation")
     plain, crowns = plain_curves(), crowned_curves(crowned_mesh)
     page.cells("Flanks | f_n", branch_rows([*plain, *crowns]), first=1)
-    page.cells("Value | one density, ISO 6336-1", loaded_claims_rows(), first=1)
     page.write()
     logger.info("pictures")
     for name in PICTURES:

@@ -28,7 +28,6 @@ from tests.helpers.fzg_gears import friction as fzg_friction
 CYCLES = ROOT / "docs" / "drive_cycle" / "numbers.csv"
 SHARE = "zhou_hoeprich_1991"  # of `friction`
 _MIXED_DEGC = (40.0, 80.0, 120.0)
-MESH = ("friction_viscous", "friction_boundary", "friction_rolling")
 _ROUNDING = 0.05  # points
 
 
@@ -90,11 +89,6 @@ def _within(values: list[float], low: float, high: float) -> list[str]:
 def statements(cars: list[CarAxle]) -> list[list[str]]:
     """Return what both axles have and the verdict, in the order of the table."""
     shared = [replace(car, axle=replace(car.axle, friction=SHARE)) for car in cars]
-    return [*ranges(cars, shared), *trends(cars, shared)]
-
-
-def ranges(cars: list[CarAxle], shared: list[CarAxle]) -> list[list[str]]:
-    """Return rows for published ranges."""
 
     def efficiency(some: list[CarAxle], degc: float) -> list[float]:
         return [100.0 - sum(cruise(car, 100.0, 15e3, degc).values()) for car in some]
@@ -120,43 +114,6 @@ def ranges(cars: list[CarAxle], shared: list[CarAxle]) -> list[list[str]]:
         powers.append(float(np.log(lost[1] / lost[0]) / np.log(8.0)))
     linear = (abs(one - 1.0) <= 0.2 for one in powers)
     rows.append([*_text(powers, ""), _held(*linear, otherwise="not held: steeper")])
-    return rows
-
-
-def trends(cars: list[CarAxle], shared: list[CarAxle]) -> list[list[str]]:
-    """Return rows for what losses should do."""
-    speeds = np.array([50.0, 400.0])
-    free = [losses(car, 0.0, speeds, 80.0)[0, :, 0].sum(-1) / speeds for car in cars]
-    rows = [
-        [*(f"{one[0]:.2f}, {one[1]:.2f} N·m" for one in free),
-         _held(*(one[1] > one[0] > 0.0 for one in free))]
-    ]  # fmt: skip
-    warm = []
-    for car in cars:
-        lost = losses(car, 30.0, 200.0, np.array([40.0, 100.0]))[:, 0, 0].sum(-1)
-        warm.append(float(lost[1] / lost[0]))
-    rows.append([*_text(warm, " times"), _held(*(one < 1.0 for one in warm))])
-    for some, otherwise in ((cars, "not held: it falls, see above"), (shared, "not held")):
-        flanks = []
-        for car in some:
-            slow = losses(car, 300.0, 3.0, np.array([40.0, 120.0]))[:, 0, 0]
-            mesh = slow[:, [LOSS_SOURCES.index(one) for one in MESH]].sum(-1)
-            flanks.append(float(mesh[1] / mesh[0]))
-        held = _held(*(one > 1.0 for one in flanks), otherwise=otherwise)
-        rows.append([*_text(flanks, " times"), held])
-    slopes = []
-    for car in cars:
-        lost = losses(car, np.array([100.0, 300.0]), np.array([10.0, 400.0]), 90.0)[0].sum(-1)
-        slopes.append((lost[:, 1] - lost[:, 0]) / np.array([10.0, 400.0]) / 200.0)
-    rows.append(
-        [*(f"{100 * one[0]:.2f}, {100 * one[1]:.2f} %" for one in slopes),
-         _held(*(0.0 < one[1] < one[0] for one in slopes))]
-    )  # fmt: skip
-    sides = []
-    for car in cars:
-        lost = losses(car, np.array([-100.0, 100.0]), 200.0, 60.0)[0, 0].sum(-1)
-        sides.append(float(lost[0] / lost[1]))
-    rows.append([*_text(sides, " times"), _held(*(abs(one - 1.0) > 0.01 for one in sides))])
     return rows
 
 

@@ -1,4 +1,4 @@
-"""What decides the efficiency of the gear mesh, claims 43 and 44 of Mohammadpour et al. 2015."""
+"""Efficiency of the gear mesh by readings of the formulas, claim 43 of Mohammadpour et al. 2015."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.page import Page, border
+from docs.page import Page
 from drivetrain.road_load import mohammadpour_2015_road_load
 from gearlube_core.contact.greenwood_tripp_1971 import SurfaceParameters
 from gearlube_core.contact.solid import SolidParameters, contact_modulus
@@ -20,18 +20,11 @@ from gearlube_core.dynamics.train.elements.hypoid_mesh_places import TABLE
 from gearlube_core.friction.flank_data import PRINTED_TRACTION
 from gearlube_core.friction.flank_laws import MixedFlankFriction
 from gearlube_core.oil.lubricant import Lubricant
-from gearlube_core.oil.lubricant_state import lubricant_state
 from gearlube_core.units import kmh_to_ms
 
 SPEEDS = (20.0, 60.0, 100.0)  # km/h
 OIL_TEMPERATURE = 368.15  # K
-PRINTED = (0.9905, 0.9915)  # fig. 12
-JUDGED_AT = 60.0  # km/h, where a needed factor is sought
 _SETTLED, _RECORDED, _STEP = 0.05, 0.05, 1e-4  # s; ten or more mesh periods
-_WIDEST = 16.0  # factor either way within which a needed one is sought
-_PRECISION = 1e-2  # of a needed factor
-_FLAT = 0.003  # claim 44
-_SWEPT = (20.0, 40.0, 60.0, 80.0, 100.0)  # km/h
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,36 +121,6 @@ INPUTS: Mapping[str, tuple[float, str]] = {
 }
 
 
-def needed_factor(name: str, reading: Reading | None = None) -> float | None:
-    """Return the factor on an input with which the mesh reaches the printed range, or None."""
-    start = reading or Reading()
-
-    def short(factor: float) -> float:
-        return PRINTED[0] - start.times(name, factor).efficiency(JUDGED_AT)
-
-    if short(1.0) <= 0.0:
-        return 1.0
-    reached = [end for end in (1.0 / _WIDEST, _WIDEST) if short(end) < 0.0]
-    if not reached:
-        return None
-    return border(lambda factor: short(factor) <= 0.0, reached[0], 1.0, _PRECISION, ratio=True)
-
-
-def spread(reading: Reading, speeds: tuple[float, ...] = _SWEPT) -> float:
-    """Return how far the efficiency of the mesh varies over speed."""
-    values = [reading.efficiency(speed) for speed in speeds]
-    return max(values) - min(values)
-
-
-def flat_roughness(reading: Reading) -> float:
-    """Return the roughness [um] with which the efficiency is flat to claim 44, to a hundredth."""
-
-    def flat(factor: float) -> bool:
-        return spread(reading.times("roughness", factor)) < _FLAT
-
-    return INPUTS["roughness"][0] * border(flat, 0.1, 1.0, _PRECISION, ratio=True)
-
-
 CIRCULAR = Reading(friction="printed_traction_circular")
 # of the rows of the table
 _READINGS = (
@@ -193,43 +156,7 @@ def circle_share() -> float:
     return float(np.average(ratio, weights=ellipse[:, SHARE]))
 
 
-def decisions() -> list[tuple[str | None, str | None]]:
-    """Return what is here and what is needed, of claims 43 to 45."""
-    here = f"{100.0 * Reading().efficiency(JUDGED_AT):.2f} %"
-    rows: list[tuple[str | None, str | None]] = [
-        (
-            here,
-            f"eq. (13) as printed, circle: {100.0 * CIRCULAR.efficiency(JUDGED_AT):.2f} %",
-        )
-    ]
-    for name, (value, unit) in INPUTS.items():
-        factor = needed_factor(name)
-        needed = f"none from 1/{_WIDEST:g} to {_WIDEST:g} times"
-        if factor is not None:
-            needed = (
-                f"{factor * value:.3g} {unit} ({factor:.2f} times)" if unit else f"{factor:.2f}"
-            )
-        rows.append((f"{value:g} {unit}".strip(), needed))
-    return [
-        *rows,
-        (
-            f"E': spread {100.0 * spread(Reading(friction='as_printed')):.2f} %",
-            f"E*: {100.0 * spread(Reading(friction=_printed_traction)):.2f} % (asked: 0.3)",
-        ),
-        (
-            f"0.5 um: spread {100.0 * spread(CIRCULAR):.2f} %",
-            f"{flat_roughness(CIRCULAR):.2f} um: 0.30 %",
-        ),
-        (None, None),
-    ]
-
-
 def fill(page: Page) -> None:
     """Put what decides the efficiency into the page."""
-    karagiannis = Lubricant.named("karagiannis_2012").parameters()
-    alpha = 1e9 * float(lubricant_state(karagiannis, OIL_TEMPERATURE).alpha)
-    late = 100.0 * spread(CIRCULAR, (25.0, *_SWEPT[1:]))
     page.cells("Reading or input", reading_rows(), first=1)
     page.fill("at the mean pressure of a circle, which is {} % of", f"{100.0 * circle_share():.0f}")
-    page.fill("has 14.4 1/GPa, {} 1/GPa at 95 degC by", f"{alpha:.1f}")
-    page.fill("from 25 km/h on the spread is {} %", f"{late:.2f}")

@@ -64,7 +64,7 @@ def convert(
     ] = False,
     example: Annotated[bool, prints_example(_example, "a REXS file of a helical pair")] = False,
 ) -> None:
-    """Convert a pair between REXS and gear files, and say what does not fit.
+    """Convert a pair between REXS and gear files, and list what does not fit.
 
     A cylindrical stage becomes a gear file of a helical pair, a bevel stage a blank file; with
     --train a gearbox of cylindrical stages becomes a train file.

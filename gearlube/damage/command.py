@@ -74,14 +74,18 @@ def damage(
         ),
     ] = None,
     application_factor: Annotated[
-        float, typer.Option(help="K_A: what the torques of the bins lack.")
+        float,
+        typer.Option(help="Application factor K_A: overload that the torques of the bins lack."),
     ] = 1.0,
     wear_coefficient: Annotated[
         float | None,
         typer.Option(help="k of Archard's law, of your tests [1/Pa]; left out: no wear."),
     ] = None,
     wear_of_all_load: Annotated[
-        bool, typer.Option("--wear-of-all-load", help="Films spare nothing: an upper bound.")
+        bool,
+        typer.Option(
+            "--wear-of-all-load", help="Wear by all load, also on full films: an upper bound."
+        ),
     ] = False,
     wear_steps: Annotated[
         int,
@@ -109,18 +113,20 @@ def damage(
     ] = None,
     load_stage: Annotated[
         float | None,
-        typer.Option(help="Of a pair: failure load stage of the oil in the FZG test A/8.3/90."),
+        typer.Option(help="Failure load stage of the oil in the FZG test A/8.3/90, for a pair."),
     ] = None,
     load_stage_torque_nm: Annotated[
         float | None,
         typer.Option(
-            help="Of the pinion at that stage [N.m]. Default: 3.726 times the square of the stage, "
+            help="Pinion torque at that stage [N.m]. Default: 3.726 times the square of the stage, "
             "not checked against the source."
         ),
     ] = None,
     edition: Annotated[
         str | None,
-        typer.Option(help="Of a pair: of ISO 6336-2, -3. Default: 2006.", metavar="2006|2019"),
+        typer.Option(
+            help="Edition of ISO 6336-2, -3, for a pair. Default: 2006.", metavar="2006|2019"
+        ),
     ] = None,
     oil: Annotated[
         str | None,
@@ -128,10 +134,10 @@ def damage(
     ] = None,
     roughness_um: Annotated[
         float | None,
-        typer.Option(help="Of a pair: composite rms roughness of the flanks [µm]. Default: 0.5."),
+        typer.Option(help="Composite rms roughness of the flanks of a pair [µm]. Default: 0.5."),
     ] = None,
     scuffing_temperature: Annotated[
-        float | None, typer.Option(help="At which the oil scuffs, mean of tests [degC].")
+        float | None, typer.Option(help="Scuffing temperature of the oil, mean of tests [degC].")
     ] = None,
     surface_hv: Annotated[
         float | None, typer.Option(help="Hardness of the flanks at the surface [HV].")
@@ -145,7 +151,7 @@ def damage(
         typer.Option(help="Fatigue limit of reversed torsion, for under the surface [MPa]."),
     ] = None,
     bending_fatigue_mpa: Annotated[
-        float | None, typer.Option(help="The same of reversed bending of a smooth bar [MPa].")
+        float | None, typer.Option(help="Fatigue limit of reversed bending of a smooth bar [MPa].")
     ] = None,
     micropitting_torque_nm: Annotated[
         float | None,

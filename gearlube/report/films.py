@@ -83,7 +83,7 @@ def film_model_attributes(models: Mapping[str, FilmModel]) -> dict[str, str]:
 def solved_films(
     bound: float,
     share_outside: float,
-    outside_words: str,
+    outside_at: str,
     effect: str = "",
     model: str = "",
     where: str = "",
@@ -96,7 +96,7 @@ def solved_films(
         The model's 95 % bound of the flanks' friction loss over that loss [-]; nan if none holds.
     share_outside
         Share of the flanks' load outside the model's domain that decides about a warning [-].
-    outside_words
+    outside_at
         What `share_outside` is, "at most 3 % of the flanks' load, at 40 km/h".
     effect
         A sentence on what the bound does to another result.
@@ -110,11 +110,11 @@ def solved_films(
         f"Films and friction of the flanks are those of solved films{where} (film.model = solved). "
         f"{_bounded(bound, loss)}"
     )
-    return _finding(headline, share_outside, outside_words, effect, model)
+    return _finding(headline, share_outside, outside_at, effect, model)
 
 
 def solved_rollers(
-    bound: float, share_outside: float, outside_words: str, effect: str = "", model: str = ""
+    bound: float, share_outside: float, outside_at: str, effect: str = "", model: str = ""
 ) -> Finding:
     """Return the finding of a run whose bearings have the law solved_films.
 
@@ -122,14 +122,14 @@ def solved_rollers(
     ----------
     bound
         The model's 95 % bound of the bearings' drag loss over that loss [-].
-    share_outside, outside_words, effect, model
+    share_outside, outside_at, effect, model
         As in `solved_films`, of the rollers.
     """
     headline = (
         "Films and rolling friction of the rollers are those of solved films (bearing_torque_loss "
         "= solved_films). " + _bounded(bound, "the bearings' drag loss")
     )
-    return _finding(headline, share_outside, outside_words, effect, model)
+    return _finding(headline, share_outside, outside_at, effect, model)
 
 
 def formulas_stand_in(what: str, outside: Array, speed: Array) -> list[Finding]:
@@ -197,11 +197,11 @@ def _bounded(bound: float, loss: str) -> str:
 
 
 def _finding(
-    headline: str, share_outside: float, outside_words: str, effect: str, model: str
+    headline: str, share_outside: float, outside_at: str, effect: str, model: str
 ) -> Finding:
     detail = [
         effect,
-        f"Outside the model's domain formulas take over: {outside_words}.",
+        f"Outside the model's domain formulas are used: {outside_at}.",
         "The bound leaves out how uncertain the oil's data are.",
         f"Model: {model}." if model else "",
     ]

@@ -65,7 +65,7 @@ def vary(
     parts: Annotated[
         int | None,
         typer.Option(
-            help="Predict so many parts by a model trained on the points, and check it by them.",
+            help="Predict this number of parts by a model trained on the points, and check it.",
             metavar="N",
         ),
     ] = None,

@@ -164,7 +164,7 @@ class ShaftBearings(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Bearing(Part):
-    """A bearing in engineering words, one type for both shafts of an axle."""
+    """Numbers of a bearing type, one for both shafts of an axle."""
 
     kind: ClassVar[Kind[Bearing]] = Kind(
         what="bearing type",

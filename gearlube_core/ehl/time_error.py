@@ -12,7 +12,7 @@ from gearlube_core.ehl.grid_error import LARGE_ERROR
 # of the third difference of what a node stores, that a step adds to its error
 _SHARES = {"bdf2": 1.0 / 3.0, "crank_nicolson": -1.0 / 12.0}
 _FIRST_SHARE = 0.5  # of the first difference, where a march starts from rest by backward Euler
-_STIFF = 0.1  # of the largest pressure, from where on oil is carried and hardly pumped
+_STIFF = 0.1  # of the largest pressure: above, flow by pressure is negligible
 _THIN = 1.1  # times the smallest film: where an error may move it
 SAFETY_IN_TIME = 2.5
 

@@ -88,7 +88,7 @@ def test_an_option_of_a_command_has_four_words_or_a_unit():
             for one in command.get_params(context)
             if one.name != "help" and _riddle(one.help or "")
         ]
-        if isinstance(command, click.Group):
+        if hasattr(command, "list_commands"):
             commands += [
                 (f"{path} {name}", command.get_command(context, name))
                 for name in command.list_commands(context)

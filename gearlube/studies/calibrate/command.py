@@ -54,7 +54,7 @@ def calibrate(
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("gearlube_calibrate"),
     overwrite: OverwriteOption = False,
 ) -> None:
-    """Fit uncertain inputs of an axle to measured losses, and say what the data do not see.
+    """Fit uncertain inputs of an axle to measured losses; name those that stay unknown.
 
     Writes calibrated.toml (the axle file), calibrated.ssv (for its FMU), draws.csv, residuals.csv,
     report.html and figures.

@@ -103,14 +103,15 @@ def contact(
         ),
     ] = None,
     oil_temperature: Annotated[
-        float | None, typer.Option(help="Its temperature [degC]; default 90.", metavar="DEGC")
+        float | None,
+        typer.Option(help="Oil temperature of the films [degC]; default 90.", metavar="DEGC"),
     ] = None,
     sensitivity: Annotated[
         bool,
         typer.Option(
             "--sensitivity",
-            help="Instead: what each machine setting, cutter dimension and misalignment changes, "
-            "per small error. At one of --torques, default 50; 8 positions.",
+            help="Derivatives instead: effect of a small error of each machine setting, cutter "
+            "dimension and misalignment. At one of --torques, default 50; 8 positions.",
         ),
     ] = False,
     example: ExampleOption = False,

@@ -41,7 +41,7 @@ def design(
     """Design a hypoid or bevel pair: from blank data and a wanted contact to machine settings.
 
     Writes the gear file (`gearlube contact` takes it), an axle file to complete, report.html,
-    design.nc and figures. Takes a minute of one processor, the first time more. --optimise adds a
+    design.nc and figures. Takes some minutes of one processor. --optimise adds a
     quieter pair with a report of its own, and takes some minutes more.
     """
     if example:

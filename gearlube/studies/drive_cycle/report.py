@@ -101,13 +101,13 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
 
 def _lost(dataset: xr.Dataset) -> Finding:
     low, high = (float(dataset[f"energy_lost_{end}"]) for end in ("low", "high"))
-    detail = f"{_whose(dataset)} it is {number_text(low)} to {quantity_text(high, 'kJ')}."
+    detail = f"{_bounds_text(dataset)} it is {number_text(low)} to {quantity_text(high, 'kJ')}."
     if causes := dataset.attrs.get("causes"):
         detail += f" Most of this bar, and of that of the efficiency, comes from: {causes}."
     return energy_lost(dataset, "The axle", source_words, detail)
 
 
-def _whose(dataset: xr.Dataset) -> str:
+def _bounds_text(dataset: xr.Dataset) -> str:
     """Return the bounds of energy and last temperature as text."""
     if _DRAWN in dataset:
         return "With the uncertain data of axle and heat (95 % of the draws)"
@@ -127,7 +127,7 @@ def _temperature(dataset: xr.Dataset) -> Finding:
     return Finding(
         NOTE,
         f"The oil goes from {oil[0]:.0f} to {oil[-1]:.0f} °C.",
-        f"{_whose(dataset)} it ends between {low:.0f} and {high:.0f} °C; air is at "
+        f"{_bounds_text(dataset)} it ends between {low:.0f} and {high:.0f} °C; air is at "
         f"{dataset.attrs['air_temperature_degc']:g} °C.",
     )
 

@@ -189,7 +189,7 @@ def with_flanks(
     facets
         In place of the involute; 0: none.
     crown_start_mm
-        Of both crowns, from mid-face [mm].
+        Start of both crowns, from mid-face [mm].
     relief_parabola
         Parabolic share k of both tip reliefs [-].
     relief_exponent

@@ -61,7 +61,7 @@ def sweep(
         bool,
         typer.Option(
             "--steady-temperature",
-            help="Run each point at the oil temperature where the air takes what the axle loses.",
+            help="Run each point at the oil temperature that balances loss and cooling.",
         ),
     ] = False,
     air_temperature: AirTemperatureOption = None,

@@ -75,7 +75,7 @@ def whine(
     overwrite: OverwriteOption = False,
     example: ExampleOption = False,
 ) -> None:
-    """Whine orders of a pair over the speed, and what each setting or relief changes of them.
+    """Whine orders of a pair over the speed, and their change by each setting or relief.
 
     From the flanks through the mesh table to the vibration of the torsional pair, with exact
     derivatives. Writes whine.nc, whine.csv, a figure and report.html. Finished positions are kept

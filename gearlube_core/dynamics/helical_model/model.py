@@ -25,9 +25,9 @@ from gearlube_core.dynamics.train.element import RZ, W
 from gearlube_core.dynamics.train.elements.held_port import SpeedHolder
 from gearlube_core.dynamics.train.march import NOT_FINITE, REFUSALS, START
 from gearlube_core.dynamics.train.stepped_model import (
+    MessageTerms,
     SteppedModel,
     TorqueLimits,
-    Words,
     put_speed,
     shafts_status,
 )
@@ -40,7 +40,7 @@ NO_FREQUENCIES_WORDS = (
     "the natural frequencies about the static equilibrium are not finite. Use stiffness, masses "
     "and damping nearer to those of gears"
 )
-WORDS = Words(
+WORDS = MessageTerms(
     name="pair",
     resolved="the mesh frequency",
     refusals={

@@ -1,4 +1,4 @@
-"""Parameters of the helical pair, checked, in engineering words."""
+"""Checked parameters of the helical pair."""
 
 from __future__ import annotations
 

@@ -27,9 +27,9 @@ from gearlube_core.dynamics.train.elements.held_port import SpeedHolder
 from gearlube_core.dynamics.train.march import NOT_FINITE, REFUSALS, START
 from gearlube_core.dynamics.train.rest_search import OK
 from gearlube_core.dynamics.train.stepped_model import (
+    MessageTerms,
     SteppedModel,
     TorqueLimits,
-    Words,
     put_speed,
     shafts_status,
 )
@@ -50,7 +50,7 @@ STEP_REFUSALS = {
         "Reduce the torques or check for an unstable option (equations='as_printed')"
     ),
 }
-_WORDS = Words(
+_WORDS = MessageTerms(
     name="axle",
     resolved="the bearing modes",
     refusals=STEP_REFUSALS,

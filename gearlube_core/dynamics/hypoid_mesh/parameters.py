@@ -1,4 +1,4 @@
-"""Parameters of the lubricated hypoid axle, checked, in engineering words."""
+"""Checked parameters of the lubricated hypoid axle."""
 
 from __future__ import annotations
 

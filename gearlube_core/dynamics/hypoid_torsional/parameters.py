@@ -1,4 +1,4 @@
-"""Parameters of the torsional hypoid pair, checked, in engineering words."""
+"""Checked parameters of the torsional hypoid pair."""
 
 from __future__ import annotations
 

@@ -66,8 +66,8 @@ def put_speed(pinion_speed: float, work: Array) -> None:
     work[0], work[1], work[2] = 1.0, pinion_speed, math.nan
 
 
-class Words(NamedTuple):
-    """How messages speak of a model."""
+class MessageTerms(NamedTuple):
+    """Terms that error messages about a model use."""
 
     name: str  # "axle"
     resolved: str  # what a communication step of 1e-4 s resolves
@@ -146,7 +146,7 @@ class SteppedModel(MarchedTrain, Generic[Control]):
         oil: Lubricant,
         torque_limits: TorqueLimits,
         ranges: tuple[Range, ...],
-        words: Words,
+        words: MessageTerms,
         holder: SpeedHolder | None = None,
     ) -> None:
         beside = np.concatenate([np.zeros(_N_INPUTS), flatten(control)])

@@ -89,7 +89,7 @@ class SolidLayer:
 
 
 @dataclass(frozen=True, slots=True)
-class Touch:
+class SolidLoad:
     """How far solids touch.
 
     Parameters
@@ -107,7 +107,7 @@ class Touch:
     largest: float
 
     @classmethod
-    def of(cls, solids: SolidContact | None, film: Array, cells: Array, load: float) -> Touch:
+    def of(cls, solids: SolidContact | None, film: Array, cells: Array, load: float) -> SolidLoad:
         """Return the load of the solids.
 
         Parameters
@@ -122,7 +122,7 @@ class Touch:
             [N].
         """
         if solids is None or not float(film.min()) < solids.thickness:
-            return NO_TOUCH
+            return NO_CONTACT
         pressure = solids(film)
         area = float(((film < solids.thickness) * cells).sum())
         return cls(float((pressure * cells).sum()) / load, area, float(pressure.max()))
@@ -138,4 +138,4 @@ class Touch:
         )
 
 
-NO_TOUCH = Touch(0.0, 0.0, 0.0)
+NO_CONTACT = SolidLoad(0.0, 0.0, 0.0)

@@ -13,7 +13,7 @@ from gearlube_core.ehl.point.level import PointLevel
 from gearlube_core.ehl.point.newton.newton import NewtonRecord, flow_residual
 from gearlube_core.ehl.point.problem import PointContactProblem
 from gearlube_core.ehl.point.settings import PointSolverSettings, Sides
-from gearlube_core.ehl.point.solid_contact import Touch
+from gearlube_core.ehl.point.solid_contact import SolidLoad
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.point.traction import point_traction
 from gearlube_core.ehl.thin_film import thin_film_sentence
@@ -99,7 +99,7 @@ class PointOutcome:
     wedge: str
     limited: float
     sentence: str
-    touch: Touch
+    touch: SolidLoad
     beyond: float = 0.0
 
     @classmethod
@@ -115,7 +115,7 @@ class PointOutcome:
         residual = flow_residual(level, state)
         scales = level.scales
         smallest = float(state.film.min()) * scales.film
-        touch = Touch.of(
+        touch = SolidLoad.of(
             problem.solids,
             level.grid.sides.inner(state.film) * scales.film,
             level.grid.cells * scales.length**2,

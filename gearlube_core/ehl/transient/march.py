@@ -109,7 +109,7 @@ class FilmMarch:
             one.set_workers(workers)
         self._unit = time_step * level.scales.speed / level.scales.length
         if level.grid.sides.closed and not film.long:
-            # soon built: for every linearisation
+            # cheap to build, so rebuilt at every linearisation
             self._lagged = LaggedPreconditioner(self._grids, ColumnCycles(), patience=0)
         else:
             self._lagged = LaggedPreconditioner(self._grids, RowCycle if film.long else _multigrid)

@@ -25,9 +25,10 @@ from gearlube_core.ehl.transient.rows import Inverse, WindowedDeflection
 from gearlube_core.kernels.jit import kernel
 
 _LARGEST = 3.0  # flow residual, above which the film behind the front is too rough
-_SHARE = 0.3  # of the unbalanced flow at opening nodes, from which on the front is what lacks
-# below this flow residual the film is found but for its front: from a smaller share on, and what
-# the front's move unbalances elsewhere is left to the next linear solution
+# share of the unbalanced flow at reopening nodes above which the front is taken as the cause
+_SHARE = 0.3
+# below this flow residual only the front is open: then a smaller share suffices, and the flow that
+# its move unbalances elsewhere is left to the next linear solution
 _FOUND = 0.2
 _SHARE_FOUND, _GROWTH_FOUND = 0.1, 6.0
 _FEW = 0.01  # of the largest unbalanced flow, below which an opening node is left alone

@@ -14,7 +14,7 @@ from gearlube_core.ehl.point.equations.stencil import cell_faces
 from gearlube_core.ehl.point.far_field import border_pressure
 from gearlube_core.ehl.point.newton.newton import flow_residual
 from gearlube_core.ehl.point.settings import PointSolverSettings, Sides
-from gearlube_core.ehl.point.solid_contact import NO_TOUCH, Touch
+from gearlube_core.ehl.point.solid_contact import NO_CONTACT, SolidLoad
 from gearlube_core.ehl.point.terms.state import FilmState
 from gearlube_core.ehl.thin_film import thin_film_sentence
 from gearlube_core.ehl.time_error import time_error_sentence
@@ -43,7 +43,7 @@ class FilmSolution:
     newton_steps: int
     krylov_steps: int
     seconds: float
-    touch: Touch = NO_TOUCH  # how far the solids touch
+    touch: SolidLoad = NO_CONTACT  # how far the solids touch
     time_error: float = (
         math.nan
     )  # estimated, of the smallest film by the time steps [-]; at rest: nan
@@ -127,7 +127,7 @@ def _failures(
     return [text for good, text in checks if not good]
 
 
-def _outcome(failed: list[str], newton_steps: int, touch: Touch, cure: str = _CURE) -> str:
+def _outcome(failed: list[str], newton_steps: int, touch: SolidLoad, cure: str = _CURE) -> str:
     if not failed:
         return f"Converged in {newton_steps} steps.{touch.sentence}"
     return f"Not converged after {newton_steps} steps: {' and '.join(failed)}. {cure}"
@@ -155,7 +155,7 @@ def film_solution(
     height = scales.outward(sides.inner(state.film)) * scales.film
     load = level.grid.integral(state.pressure) * scales.pressure * scales.length**2
     cells = level.grid.cells[:, None] * scales.length**2
-    touch = Touch.of(film.solids, height, cells, load)
+    touch = SolidLoad.of(film.solids, height, cells, load)
     cut = border_pressure(pressure, height, closed=sides.closed).sentence
     cut += thin_film_sentence(pressure, height, (film.x, film.y), film.reference().radii)
     return FilmSolution(
@@ -214,7 +214,7 @@ def unpack_solutions(
         numbers = dict(zip(_NUMBERS, row.tolist(), strict=True))
         newton_steps, krylov_steps = int(numbers.pop("newton_steps")), numbers.pop("krylov_steps")
         failed = _failures(pressure, height, numbers["residual"], numbers["load_error"], settings)
-        touch = Touch.of(film.solids, height, cells, numbers["load"])
+        touch = SolidLoad.of(film.solids, height, cells, numbers["load"])
         solutions[int(step)] = FilmSolution(
             **numbers,
             x=film.x,

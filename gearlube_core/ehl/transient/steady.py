@@ -77,7 +77,7 @@ def steady_state(
         goal = settings.tolerance if last else COARSE_TOLERANCE
         build: Build = MultigridCycle
         if last and film.grading is not None and film.long:
-            # rows that are solved in part lose their way where the spacing changes along them
+            # partial row solutions diverge on a spacing that changes along the rows
             part, build = film.with_rows_below(grids, settings), RowCycle
         state = solve_level(part, state, settings, goal, record, not last, build)
     return state, record

@@ -67,7 +67,7 @@ def helical(
     ] = None,
     crown_start: Annotated[
         float | None,
-        typer.Option(help="Of both crowns, from mid-face [mm].", metavar="MM"),
+        typer.Option(help="Start of both crowns, from mid-face [mm].", metavar="MM"),
     ] = None,
     relief_parabola: Annotated[
         float | None,
@@ -102,7 +102,7 @@ def helical(
     spacing: Annotated[
         str | None,
         typer.Option(
-            help="Of the nodes across the line: even, or dense where the film leaves the contact. "
+            help="Spacing of nodes across the line: even, or dense at the outlet. "
             "Default: that of the gear file.",
             metavar="uniform|exit",
         ),

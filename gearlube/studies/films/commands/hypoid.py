@@ -38,7 +38,8 @@ def hypoid(
     load: Annotated[
         str | None,
         typer.Option(
-            help="Of the running axle, or the torque's share at rest.", metavar="dynamic|static"
+            help="Load of the running axle, or the share of the torque at rest.",
+            metavar="dynamic|static",
         ),
     ] = None,
     entrainment: Annotated[
@@ -62,7 +63,7 @@ def hypoid(
     flow: Annotated[
         str | None,
         typer.Option(
-            help="Of the film; newtonian: the Eyring stress acts on friction alone.",
+            help="Flow law of the film; newtonian: the Eyring stress acts on friction alone.",
             metavar="eyring|newtonian",
         ),
     ] = None,

@@ -1,4 +1,4 @@
-"""Parameters of the marching model, checked, in engineering words."""
+"""Checked parameters of the marching model."""
 
 from __future__ import annotations
 

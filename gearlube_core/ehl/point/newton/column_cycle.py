@@ -64,7 +64,7 @@ def fill_halo(own: np.ndarray, row: np.ndarray) -> None:
 
 
 @line_kernel
-def take_off_long(
+def subtract_smooth_part(
     grid: ColumnGrid, rows: int, i: int, done: int, spare: np.ndarray, result: np.ndarray
 ) -> int:
     """Write column i of the line solutions without what the coarser grid represents.
@@ -215,7 +215,7 @@ def descend(grid: ColumnGrid, part: tuple[int, int], spare: np.ndarray, below: n
     done = min(along.coarse[ahead + REACH, 0], grid.half.shape[0] - 1)
     for i in range(bent[0], bent[1]):
         while ahead <= min(i + reach, nx - 1):
-            done = take_off_long(grid, fewer, ahead, done, line, grid.pressure)
+            done = subtract_smooth_part(grid, fewer, ahead, done, line, grid.pressure)
             column = grid.pressure[ahead]
             grid.sums[ahead] = sum_of(column[HALO : HALO + rows], line)
             fill_halo(grid.repeated, column)
@@ -343,7 +343,7 @@ def finish(
     done = min(grid.along.coarse[ahead + REACH, 0], grid.half.shape[0] - 1)
     for i in range(part[0], part[1]):
         while ahead <= min(i + reach, nx - 1):
-            done = take_off_long(grid, fewer, ahead, done, line, grid.change)
+            done = subtract_smooth_part(grid, fewer, ahead, done, line, grid.change)
             if bend:
                 fill_halo(grid.repeated, grid.change[ahead])
             ahead += 1

@@ -38,7 +38,7 @@ from gearlube_core.ehl.point.newton.column_stencils import (
     Stencils,
     coarsen_across,
     pack_and_coarsen,
-    reached_places,
+    reached_neighbours,
     turn_derivatives,
     weigh_places,
 )
@@ -211,7 +211,7 @@ class ColumnLevel:
         if key not in self._reached:
             self._reached[key] = np.empty(PLACES, dtype=np.bool_)
             nodes = self.shape[0], self.coarse[1]
-            reached_places(self.along, used, *nodes, self._reached[key])
+            reached_neighbours(self.along, used, *nodes, self._reached[key])
         return self._reached[key]
 
 

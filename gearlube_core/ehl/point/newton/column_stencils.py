@@ -70,7 +70,7 @@ def turn_derivatives(
 
 
 @line_kernel
-def reached_places(
+def reached_neighbours(
     links: Links, used: np.ndarray, nodes: int, coarse: int, reached: np.ndarray
 ) -> None:
     """Tell which neighbours stencils get on a grid with fewer nodes to a row.

@@ -20,7 +20,7 @@ Operator = Callable[[Array, float], tuple[Array, float]]
 Inverse = Callable[[Array, float], tuple[Array, float]]
 Build = Callable[[Hierarchy, Linearisation], Inverse]
 
-_THINNEST = 0.2  # of the film before a step
+_THINNEST = 0.2  # smallest ratio of new to old film in one step [-]
 _GROWTH = 1.05  # of the residual that a step may cost
 _RUPTURED_GROWTH = 20.0  # where the edge of the oil moves: a node of it comes and goes
 _CUTS = 3

@@ -179,9 +179,9 @@ def subtract_stencil(
 class SingleStencil:
     """Derivatives of all nodes by the neighbours that weigh something, float32.
 
-    Memory traffic is what it costs: the coarse grids of a sheared film have 25 neighbours, most of
-    which hardly count. What is left out is added to the node itself, so that even changes of
-    pressure and film keep what they do.
+    Memory traffic dominates the cost, and most of the 25 neighbours on coarse grids of a sheared
+    film have small entries. Neglected entries are added to the node itself, so that the effect of
+    even changes of pressure and film stays the same.
     """
 
     offsets: np.ndarray  # (n, 2)
