@@ -26,8 +26,9 @@ WIDTHS = (2.4, 1.3, 1.2, 1.0, 0.9, 0.8)
 SIZES = (6.5, 3.8, 3.6, 3.2, 3.0, 2.8)
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++")
-GREY = "#B0B0B0"
+GREY, INK = "#B0B0B0", "#5C5C5C"
 YELLOW = "#F0E442"
+SAND, OLIVE, WINE = "#DDCC77", "#999933", "#882255"  # [tol_2021]
 PARTS = (*SERIES, YELLOW, GREY)  # of parts that add up, in their order: the same in all figures
 
 _LABEL_ROOM = 0.06  # of a panel, beside the middle of a label

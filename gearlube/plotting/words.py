@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlube.plotting.style import GREY, PARTS
+from gearlube.plotting.style import GREY, INK, OLIVE, PURPLE, SAND, SKY, WINE, YELLOW
 from gearlube_core.arrays import Array
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE, EDGE_WORDS
 
@@ -30,7 +30,9 @@ SOURCE_WORDS = {
     "seals": "seals",
     "friction_rolling": "rolling of the flanks",
 }
-SOURCE_COLOURS = dict(zip(SOURCE_WORDS, PARTS, strict=True))  # the same in every figure
+# the same in every figure, and none of those of preloads and orders
+_INKS = (SKY, PURPLE, INK, GREY, SAND, OLIVE, WINE, YELLOW)
+SOURCE_COLOURS = dict(zip(SOURCE_WORDS, _INKS, strict=True))
 NEVER_MODELLED = (
     "bearings of the wheel ends unless seals.hub_torque_n_m is given",
     "windage",

@@ -18,6 +18,7 @@
   document.head.append(code);
 
   const PRINTED = 700, LOWER = 0.82, HIGHEST = 880;  // width of a page [px]; two figures fit on it
+  const PHONE = 640, PANEL = 250, HIGH = 420;  // px; HIGH: with names beside it
   const axis = (rule) => ({
     gridcolor: rule, zerolinecolor: rule, linecolor: rule, ticks: "outside", tickcolor: rule,
     automargin: true, exponentformat: "power", title: {standoff: 8},
@@ -41,12 +42,37 @@
     toImageButtonOptions: {scale: 2},
     displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false,
   };
+  const stacked = (plot, layout) => {  // on a phone panels lie one below the other
+    if (!layout.meta?.places || innerWidth > PHONE) return layout;
+    const beside = (one) => one.xref.endsWith("domain") && one.x >= 1 && one.xanchor === "left";
+    const annotations = (layout.annotations || []).map(
+      (one) => beside(one) ? {...one, font: {...one.font, size: 9}} : one);
+    const margin = {...layout.margin, r: Math.max(12, 0.75 * (layout.margin?.r || 0))};
+    const own = {...layout, annotations, margin};
+    const {columns, places} = layout.meta;
+    if (columns === 1) return own;
+    const step = 1 / (places.length - 0.36);
+    const order = [...places.keys()].sort((a, b) => places[a][1] - places[b][1] || a - b);
+    order.forEach((panel, slot) => {
+      const name = panel ? panel + 1 : "";
+      const top = 1 - slot * step;
+      own[`xaxis${name}`] = {...layout[`xaxis${name}`], domain: [0, 1]};
+      own[`yaxis${name}`] = {...layout[`yaxis${name}`], domain: [Math.max(top - 0.64 * step, 0), top]};
+    });
+    own.height = (annotations.some(beside) ? HIGH : PANEL) * places.length + 100;
+    plot.style.height = `${own.height}px`;
+    return own;
+  };
+  const scaleBelow = (trace) => trace.colorbar ? {...trace, colorbar: {
+    ...trace.colorbar, orientation: "h", x: 0, xanchor: "left", y: -0.16, yanchor: "top",
+    title: {...trace.colorbar.title, side: "top"}}} : trace;
   const drawn = new Set();
   const draw = (plot, own) => {
     drawn.add(plot);
     const {data, layout, frames} = report.charts[plot.dataset.figure];
-    return Plotly.newPlot(
-      plot, {data, layout: {...layout, template: look(), ...own}, config, frames: frames || []});
+    const whole = {...stacked(plot, layout), template: look(), ...own};
+    const shown = innerWidth > PHONE || !layout.meta?.places ? data : data.map(scaleBelow);
+    return Plotly.newPlot(plot, {data: shown, layout: whole, config, frames: frames || []});
   };
   const drawOpen = async () => {  // what is folded has no width yet
     for (const plot of plots) {

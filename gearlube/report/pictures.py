@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from gearlube.report.parts import Figure
-from gearlube_core.storage.atomic_file import write_figure
+from gearlube.report.redrawn import redrawn
+from gearlube_core.storage.atomic_file import write_figure, write_text
+
+_DPI = 130
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,28 +38,48 @@ class Picture:
 
 
 def save_pictures(catalogue: Mapping[str, Picture], folder: Path, *given: Any) -> list[Path]:
-    """Draw every picture of a catalogue from `given` into a folder as PNG; return the files."""
+    """Draw every picture of a catalogue from `given` into a folder as PNG; return the files.
+
+    Those that can be a chart of plotly lie there as JSON too.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     files = []
     for name, one in catalogue.items():
         path = folder / f"{name}.png"
-        write_figure(one.draw(*given), path)
+        figure = one.draw(*given)
+        write_figure(figure, path)
         files.append(path)
+        if (chart := redrawn(figure)) is not None:
+            write_text(chart.to_json(), path.with_suffix(".json"))
     return files
+
+
+def shown(name: str, title: str, caption: str, figure: Any, chart: Any = None) -> Figure:
+    """Return a figure of matplotlib as a part of a report: as `chart`, else redrawn, else a PNG."""
+    chart = redrawn(figure) if chart is None else chart
+    if chart is not None:
+        return Figure(name=name, title=title, caption=caption, chart=chart)
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=_DPI)
+    return Figure(name=name, title=title, caption=caption, picture=buffer.getvalue())
 
 
 def pictured(
     catalogue: Mapping[str, Picture], folder: Path, charts: Mapping[str, Any] | None = None
 ) -> list[Figure]:
-    """Return the figures of a catalogue that lie in a folder as PNG, in its order.
+    """Return the figures of a catalogue that lie in a folder as JSON or PNG, in its order.
 
-    `charts` has charts of plotly that are shown in place of pictures, by name.
+    `charts` has charts of plotly that are shown in their place, by name.
     """
+    from plotly.io import read_json
+
     charts = charts or {}
     found = []
     for name, one in catalogue.items():
         path = folder / f"{name}.png"
         chart = charts.get(name)
+        if chart is None and path.with_suffix(".json").is_file():
+            chart = read_json(path.with_suffix(".json"))
         if chart is None and not path.is_file():
             continue
         found.append(

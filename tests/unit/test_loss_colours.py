@@ -11,7 +11,7 @@ from gearlube.studies.drive_cycle.report import loss_chart
 from gearlube.studies.loss_map.figures import loss_split
 from gearlube.studies.loss_map.report import split_chart
 from gearlube.studies.runup.figures.catalogue import overview
-from gearlube.studies.sweep.figures.charts import efficiency, efficiency_chart
+from gearlube.studies.sweep.figures.charts import efficiency
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES
 from tests.helpers.each import each
 
@@ -96,7 +96,6 @@ def traces(chart):
         (legends, loss_map, loss_split),
         (legends, cycle, cycle_figure),
         (legends, runup, overview),
-        (traces, sweep, efficiency_chart),
         (traces, loss_map, split_chart),
         (traces, cycle, loss_chart),
     ],

@@ -1,11 +1,16 @@
 """Findings, key numbers and report of a resonance study, from a response with known folds."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.report.redrawn import redrawn
+from gearlube.studies.resonance.figures.response_curves import draw_branch
 from gearlube.studies.resonance.findings import (
     findings,
     jumps,
@@ -13,14 +18,8 @@ from gearlube.studies.resonance.findings import (
     numbers,
     unstable_ranges,
 )
-from gearlube.studies.resonance.report import (
-    _harmonics_chart,
-    _load_chart,
-    _stability_chart,
-    resonance_report,
-    response_chart,
-)
-from tests.helpers.known_answers import SINGLE, assert_findings, assert_numbers
+from gearlube.studies.resonance.report import resonance_report
+from tests.helpers.known_answers import assert_findings, assert_numbers
 
 # a branch that leans to low frequency: up to 0.95, back unstable to 0.85, and on with teeth apart
 RELATIVE = np.array([0.5, 0.8, 0.9, 0.95, 0.92, 0.88, 0.85, 0.9, 1.0, 1.1, 1.2])
@@ -149,41 +148,17 @@ def test_a_stopped_study_says_so_even_without_a_model():
 
 
 def test_stretches_of_the_response_meet_where_stability_changes():
-    solid, dashed = response_chart(response()).data[:2]
-    assert dashed.name == "2-DOF, dry, unstable"
-    # unstable rows and their neighbours
-    np.testing.assert_array_equal(np.isfinite(dashed.y[:11]), [0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0])
-    np.testing.assert_array_equal(np.isfinite(solid.y[:11]), STABLE)
-
-
-def test_charts_have_a_gap_between_branches_and_the_numbers_of_each():
-    """Six rows of one branch, five of the next; all but two rows are stable."""
-    two = response().assign(segment=(("model", "row"), [np.repeat([0.0, 1.0], [6, 5])]))
-    gaps = np.array([*6 * [1.0], np.nan, *5 * [1.0], np.nan])
-    rows = np.array([0, 1, 2, 3, 4, 5, 0, 6, 7, 8, 9, 10, 0])
-    held = np.where(STABLE[rows] > 0.5, gaps, np.nan)
-    # unstable rows 4 and 5 and the row before them; what follows is another branch
-    loose = np.where(np.isin(np.arange(13), [3, 4, 5]), 1.0, np.nan)
-    size, apart = SIZE[rows], 100.0 * APART[rows]
-    load = two.isel(model=0).rename(relative_frequency="torque").expand_dims(
-        {"form": ["two_dof"], "branch": [0]}
-    )  # fmt: skip
-    # one branch: the torque is a place, the row after the unstable ones ends their stretch
-    one = [*range(11), 0]
-    ends = np.array([*11 * [1.0], np.nan])
-    firm = np.where(STABLE[one] > 0.5, ends, np.nan)
-    weak = np.where(np.isin(np.arange(12), [3, 4, 5, 6]), 1.0, np.nan)
-    for chart, expected in (
-        (response_chart(two), [held * size, loose * size, held * apart, loose * apart]),
-        (_harmonics_chart(two, "two_dof"), [1e6 * held, 1e6 * held]),
-        (_stability_chart(two), [gaps * np.where(STABLE, 0.9, 1.2)[rows]]),
-        (_load_chart(load), [f * v[one] for v in (SIZE, 100.0 * APART) for f in (firm, weak)]),
-    ):
-        assert len(chart.data) >= len(expected)
-        for line, y in zip(chart.data, expected, strict=False):
-            np.testing.assert_allclose(line.y, y, rtol=SINGLE)
-            places = RELATIVE[rows] * gaps if len(y) == 13 else RELATIVE[one] * ends
-            np.testing.assert_allclose(line.x, places, rtol=SINGLE)
+    figure = Figure()
+    branch = response().sel(model="two_dof")
+    draw_branch(figure.subplots(), branch, SIZE, "#0072B2")
+    drawn = redrawn(figure).data
+    assert [one.line.dash == "solid" for one in drawn] == [True, False, True]
+    for one, following in pairwise(drawn):
+        assert (one.x[-1], one.y[-1]) == (following.x[0], following.y[0])
+    # rows up to the first unstable one, and so on
+    np.testing.assert_allclose(drawn[0].y, SIZE[:5])
+    np.testing.assert_allclose(drawn[1].y, SIZE[4:7])
+    np.testing.assert_allclose(drawn[2].y, SIZE[6:])
 
 
 def test_the_report_has_models_inputs_and_limits(tmp_path):

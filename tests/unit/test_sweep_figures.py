@@ -104,14 +104,11 @@ def test_cells_touch_half_way_between_speeds():
 
 
 def test_report_contains_its_pictures_settings_points_and_failures(sweep, tmp_path):
-    chart = next(entry for entry in CATALOGUE if entry.chart is not None)
-    pictures = [entry for entry in CATALOGUE if entry.chart is None][:2]
-    path = write_sweep_report(sweep, tmp_path, [*pictures, chart])
+    path = write_sweep_report(sweep, tmp_path, CATALOGUE[:3])
     html = path.read_text(encoding="utf-8")
-    assert html.count("data:image/png;base64,") == 2
-    assert html.count('class="plot"') == 1
+    assert html.count('class="plot"') == 3
     assert 'src="http' not in html
-    assert "href=" not in html
+    assert 'href="http' not in html
     assert "mohammadpour_2015" in html
     assert "1.2.3" in html
     assert "<td>95.0</td>" in html  # oil of a point [degC]

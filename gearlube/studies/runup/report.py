@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,6 +15,7 @@ from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.inputs import origin_of, stored_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import INFERRED, Column, Figure, Input, Report, Table
+from gearlube.report.pictures import shown
 from gearlube.studies.runup import levels
 from gearlube.studies.runup.figures import CATALOGUE
 from gearlube.studies.runup.figures.moving.parts import moving_figures
@@ -24,7 +24,6 @@ from gearlube.studies.runup.run import FILES
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
 _DIGITS = 5
-_DPI = 130
 _LIMITS = (
     "The axle has 8 degrees of freedom; housing and shafts do not bend. Forces are those of the "
     "bearings on the shafts; noise of the housing is not included.",
@@ -200,25 +199,9 @@ def _figures(dataset: xr.Dataset, drawn: dict[str, Any], before: str) -> list[Fi
     found = []
     for one in CATALOGUE:
         name = _name(dataset, one.name)
-        if name not in drawn:
-            continue
-        chart = None if one.chart is None else one.chart(dataset)
-        found.append(
-            Figure(
-                name=name,
-                title=_joined(before, one.title),
-                caption=one.caption,
-                chart=chart,
-                picture=None if chart is not None else _png(drawn[name]),
-            )
-        )
+        if name in drawn:
+            found.append(shown(name, _joined(before, one.title), one.caption, drawn[name]))
     return found
-
-
-def _png(figure: Any) -> bytes:
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=_DPI)
-    return buffer.getvalue()
 
 
 def tables(dataset: xr.Dataset, before: str = "") -> list[Table]:

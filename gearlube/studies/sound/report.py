@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -29,6 +28,7 @@ from gearlube.report.parts import (
     Recording,
     Report,
 )
+from gearlube.report.pictures import shown
 from gearlube.studies.sound.dataset import (
     is_ramp,
     level_names,
@@ -46,7 +46,6 @@ from gearlube.studies.sound.wav import OWN_WAV, write_wav
 from gearlube_core.arrays import Array
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
-_DPI = 130
 _TITLES = {
     "spectrogram": (
         "Spectrogram",
@@ -149,27 +148,11 @@ def _numbers(dataset: xr.Dataset, *, several: bool) -> list[Number]:
 
 def _figures(datasets: Sequence[xr.Dataset], drawn: dict[str, Any]) -> list[Figure]:
     charts = {"levels": _level_chart(datasets), "metrics": _metric_chart(datasets)}
-    found = []
-    for name, (title, caption) in _TITLES.items():
-        if name not in drawn:
-            continue
-        chart = charts.get(name)
-        found.append(
-            Figure(
-                name=name,
-                title=title,
-                caption=caption,
-                chart=chart,
-                picture=None if chart is not None else _png(drawn[name]),
-            )
-        )
-    return found
-
-
-def _png(figure: Any) -> bytes:
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=_DPI)
-    return buffer.getvalue()
+    return [
+        shown(name, title, caption, drawn[name], charts.get(name))
+        for name, (title, caption) in _TITLES.items()
+        if name in drawn
+    ]
 
 
 def _inputs(sound: Sound) -> list[Input]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from gearlube.plotting.range_words import usable_words
 from gearlube.plotting.words import largest_losses, not_modelled
 from gearlube.report.churning import regime_findings
 from gearlube.report.films import (
@@ -55,7 +56,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     --------
     >>> from gearlube.studies.sweep.datasets import load_sweep
     >>> findings(load_sweep("gearlube_sweep"))[0].headline  # doctest: +SKIP
-    'The largest mesh order of the transmission error is order 1: 1.02 µm at 51 km/h ...'
+    'Bearing 1 shakes the housing most with mesh order 1: 57.6 N across the pinion (y) at 52 ...'
     """
     failed = int((dataset["status"] != FINISHED).sum())
     points = dataset["status"].size
@@ -69,10 +70,12 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
             )
         )
     if failed < points:
-        found += [
-            *_whine(dataset),
+        answers = [*_whine(dataset), *_contact(dataset)]
+        found = [
+            *answers[:1],
+            *found,
+            *answers[1:],
             *_resonance(dataset),
-            *_contact(dataset),
             *_loss(dataset),
             *_film(dataset),
             *_solved(dataset),
@@ -88,6 +91,13 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
 def _whine(dataset: xr.Dataset) -> list[Finding]:
     tops = largest_peaks(dataset)
     found = []
+    top = tops.get("bearing_force_spectrum")
+    if top and top.amplitude > 0.0:
+        headline = (
+            f"Bearing 1 shakes the housing most with mesh order {top.order}: "
+            f"{quantity_text(top.amplitude, 'N')} across the pinion (y)"
+        )
+        found.append(_peak(dataset, top, "bearing_force_spectrum", headline))
     if top := tops.get("dte_spectrum"):
         words = "; ".join(
             f"order {p.order} {quantity_text(1e6 * p.amplitude, 'µm')} at {p.speed_kmh:g} km/h"
@@ -99,13 +109,6 @@ def _whine(dataset: xr.Dataset) -> list[Finding]:
         )
         others = f"The others: {words}." if words else ""
         found.append(_peak(dataset, top, "dte_spectrum", headline, others))
-    top = tops.get("bearing_force_spectrum")
-    if top and top.amplitude > 0.0:
-        headline = (
-            f"Bearing 1 shakes the housing most with mesh order {top.order}: "
-            f"{quantity_text(top.amplitude, 'N')} across the pinion (y)"
-        )
-        found.append(_peak(dataset, top, "bearing_force_spectrum", headline))
     return found
 
 
@@ -349,14 +352,15 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
     if "range_exceeded" not in dataset:
         return []
     left = np.nan_to_num(dataset["range_exceeded"].values) > 0.0
-    finished = int((dataset["status"] == FINISHED).sum())
+    good = dataset["status"].values == FINISHED
+    axes = [(dataset["preload"].values, "N"), (dataset["speed_kmh"].values, "km/h")]
     if not np.any(left):
         return [Finding(GOOD, "No finished point left the range of a formula or table.")]
     return [
         Finding(
             WARNING,
-            f"{int(left.sum())} of {finished} points left the range of a formula or table: "
-            f"{_speeds_where(dataset, left)}.",
+            f"{int(left.sum())} of {int(good.sum())} points left the range of a formula or table. "
+            f"{usable_words(good & ~left, axes)}",
             "What is computed there is extrapolated; the table of ranges says which.",
         )
     ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from gearlube.plotting.style import preload_label
 from gearlube.report.inputs import OF_AXLE, origin_of, stored_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, Cell, Column, Figure, Input, Report, Table
+from gearlube.report.pictures import shown
 from gearlube.studies.sweep.datasets import SEPARATION_MEANINGS
 from gearlube.studies.sweep.figures import CATALOGUE, Entry
 from gearlube.studies.sweep.findings import findings
@@ -26,7 +26,7 @@ from gearlube.studies.sweep.peaks import (
 )
 from gearlube.studies.sweep.point import FINISHED
 from gearlube.studies.sweep.settings import FMU_PARAMETERS, STEADY
-from gearlube_core.storage.atomic_file import atomic_write
+from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import kelvin_to_celsius
 
 _FEW = 24  # rows of a table that is shown at once
@@ -35,7 +35,6 @@ _WHERE: tuple[tuple[Column, _Value], ...] = (
     (Column("preload", "N", 4), lambda p: float(p["preload"])),
     (Column("speed", "km/h"), lambda p: float(p["speed_kmh"])),
 )
-_DPI = 130
 _COOLING = (
     "setting_air_temperature",
     "setting_conductance_at_rest",
@@ -285,6 +284,7 @@ def sweep_report(
         findings=findings(dataset),
         numbers=numbers(dataset),
         figures=_figures(dataset, figures, entries) if finished else (),
+        main_figures=[one.name for one in CATALOGUE if one.essential],
         tables=tables(dataset),
         inputs=[
             *_settings(dataset),
@@ -309,27 +309,12 @@ def _subtitle(dataset: xr.Dataset, finished: int) -> str:
 def _figures(dataset: xr.Dataset, directory: Path | None, entries: Sequence[Entry]) -> list[Figure]:
     found = []
     for entry in entries:
-        png = _png(dataset, entry) if directory is not None or entry.chart is None else None
-        if directory is not None and png is not None:
+        figure = entry.draw(dataset)
+        if directory is not None:
             directory.mkdir(parents=True, exist_ok=True)
-            with atomic_write(directory / f"{entry.name}.png") as partial:
-                partial.write_bytes(png)
-        found.append(
-            Figure(
-                name=entry.name,
-                title=entry.title,
-                caption=entry.caption,
-                chart=None if entry.chart is None else entry.chart(dataset),
-                picture=png if entry.chart is None else None,
-            )
-        )
+            write_figure(figure, directory / f"{entry.name}.png")
+        found.append(shown(entry.name, entry.title, entry.caption, figure))
     return found
-
-
-def _png(dataset: xr.Dataset, entry: Entry) -> bytes:
-    buffer = io.BytesIO()
-    entry.draw(dataset).savefig(buffer, format="png", dpi=_DPI)
-    return buffer.getvalue()
 
 
 def _settings(dataset: xr.Dataset) -> list[Input]:

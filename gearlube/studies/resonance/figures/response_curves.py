@@ -11,10 +11,12 @@ from gearlube.plotting.style import (
     BLUE,
     GREEN,
     GREY,
+    OLIVE,
     ORANGE,
     PURPLE,
     SKY,
     VERMILLION,
+    WINE,
     house_style,
     new_figure,
 )
@@ -183,7 +185,7 @@ def harmonics(dataset: xr.Dataset) -> Any:
     """Return the amplitudes of the mesh orders over frequency."""
     models = shown_models(dataset)
     orders = dataset["harmonic"].values[:4]
-    colours = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY)
+    colours = (SKY, ORANGE, WINE, OLIVE)  # not those of models
     with house_style():
         figure = new_figure(9.6, 2.7 * len(models) + 0.6)
         axes = np.atleast_1d(figure.subplots(len(models), 1, sharex=True, sharey=True))

@@ -18,11 +18,9 @@ from gearlube.studies.runup.figures.moving.words import AXES, RINGS
 from gearlube.studies.runup.figures.tracks import (
     ORDER_LOOKS,
     bearing_tracks,
-    map_chart,
     mode_shapes,
     operating_shape,
     order_tracks,
-    track_chart,
 )
 from gearlube_core.arrays import Array
 from gearlube_core.units import rads_to_rpm
@@ -48,7 +46,6 @@ class Entry:
     title: str
     caption: str
     draw: Callable[[xr.Dataset], Any]
-    chart: Callable[[xr.Dataset], Any] | None = None  # of plotly, for the report
     needs: str = "time"  # drawn where the dataset has this variable
 
 
@@ -236,7 +233,6 @@ CATALOGUE = (
         "the dynamic transmission error (below). Dotted: speeds at which a mesh order meets a "
         f"natural frequency. A peak on a dotted line is that resonance. {_ALL}",
         draw=order_tracks,
-        chart=track_chart,
     ),
     Entry(
         name="waterfall",
@@ -245,7 +241,6 @@ CATALOGUE = (
         "speed. Dotted: natural frequencies, which are constant. Look where they cross. "
         f"{_ALL}",
         draw=frequency_map,
-        chart=map_chart,
     ),
     Entry(
         name="waterfall_orders",
@@ -274,7 +269,7 @@ CATALOGUE = (
     Entry(
         name="mode_shapes",
         title="Mode shapes",
-        caption="Displacements of pinion (blue) and gear (red) in each natural mode, the largest "
+        caption="Displacements of pinion (red) and gear (olive) in each natural mode, the largest "
         "is 1; rotation as displacement at the contact. Axes of the fixed frame: x is "
         "axial for the pinion, z for the gear.",
         draw=mode_shapes,

@@ -13,12 +13,13 @@ from gearlube_core.arrays import Array
 
 DYNAMIC_RANGE = 70.0  # dB of the colour scale
 _MOST_ORDERS = 3.6  # mesh orders on the order axis
+_MOST = 260  # slices of a map
 _COLOURS = "viridis"
 _LIGHT = "white"
 _LOWEST = 3.5  # bins above 0 Hz, where the change of the mean leaks
 
 
-def force_cells(dataset: xr.Dataset) -> tuple[Array, Array, Array]:
+def _force_cells(dataset: xr.Dataset) -> tuple[Array, Array, Array]:
     """Return pinion speeds [rpm], frequencies [Hz] and levels of all bearing forces [dB].
 
     Shapes (slices,), (rows,), (slices, rows); slices by ascending speed.
@@ -29,14 +30,14 @@ def force_cells(dataset: xr.Dataset) -> tuple[Array, Array, Array]:
     frequency = dataset["frequency"].values
     keep = (frequency <= _top_frequency(dataset)) & (frequency > _LOWEST * frequency[1])
     speed = levels.rpm(dataset, "slice_speed")
-    along = np.argsort(speed)
+    along = np.argsort(speed)[:: max(1, speed.size // _MOST)]
     return speed[along], *largest_in_cells(frequency[keep], force[along][:, keep])
 
 
 def frequency_map(dataset: xr.Dataset) -> Any:
     """Return the level of all bearing forces over pinion speed and frequency, with order lines."""
     top = _top_frequency(dataset)
-    speed, rows, cells = force_cells(dataset)
+    speed, rows, cells = _force_cells(dataset)
     floor = cells.max() - DYNAMIC_RANGE
     with house_style():
         figure = new_figure(9.4, 5.8)
@@ -77,14 +78,7 @@ def order_map(dataset: xr.Dataset) -> Any:
         levels.speed_axis(ax, dataset)
         ax.set_xlim(*ends)
         ax.set_ylabel("order: cycles per pinion revolution [-]")
-        marks = ax.twinx()
-        marks.set_ylim(0.0, top)
-        marks.set_yticks(
-            [m * teeth for m in range(1, int(top / teeth) + 1)],
-            [f"H{m}" for m in range(1, int(top / teeth) + 1)],
-        )
-        marks.grid(visible=False)
-        marks.spines["right"].set_visible(False)
+        name_levels(ax, {f"H{m}": m * teeth for m in range(1, int(top / teeth) + 1)})
         figure.suptitle(f"Orders of the bearing forces: {levels.heading(dataset)}")
     return figure
 

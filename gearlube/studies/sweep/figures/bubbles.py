@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import (
-    BLUE,
+    GREEN,
     ORANGE,
     house_style,
     name_levels,
@@ -28,7 +28,7 @@ _LOWEST = 0.012  # of the frequency axis; lines below do not set the scale
 _ONE_ROW = 8.0  # width of a figure from which its key has one row [in]
 _ENGINE = tuple(range(2, 25, 2))  # orders of a four-stroke engine with four cylinders
 KINDS = ("mesh orders", "engine orders", "others: sidebands, rollers, free vibration")
-COLOURS = (BLUE, ORANGE, "#8C8C8C")
+COLOURS = (GREEN, ORANGE, "#8C8C8C")
 _MESH_LINES = (1, 2, 3)
 
 
@@ -170,7 +170,7 @@ def _guides(ax: Any, row: xr.Dataset, top: float) -> None:
         known = np.isfinite(values)
         if not np.any(known) or np.nanmax(values) < 0.02 * top:
             continue
-        ax.plot(speed[known], values[known], color="#9DB9CC", lw=0.9, zorder=1)
+        ax.plot(speed[known], values[known], color="#8FC7B4", lw=0.9, zorder=1)
         inside = np.flatnonzero(known & (values < 0.97 * top))
         if inside.size:
             text = ax.annotate(

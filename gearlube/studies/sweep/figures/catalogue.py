@@ -8,14 +8,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
-from gearlube.plotting.style import preload_label
-from gearlube.report.charts import Axis, panels
 from gearlube.studies.sweep.figures import bubbles, charts, orders
 from gearlube.studies.sweep.figures.charts import efficiency
-from gearlube.studies.sweep.figures.orders import BEARING_CUTS, MapChannel, default_top, order_cuts
+from gearlube.studies.sweep.figures.orders import BEARING_CUTS, order_cuts
 from gearlube.studies.sweep.figures.waveforms import (
     film_over_mesh_cycle,
     operating_points,
@@ -23,9 +20,6 @@ from gearlube.studies.sweep.figures.waveforms import (
     waveforms,
 )
 from gearlube_core.storage.atomic_file import write_figure
-
-_SPEED = Axis("vehicle speed", "km/h")
-_LARGEST = 15.0  # pixels
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,26 +32,19 @@ class Entry:
         File name; a few words; what is drawn, and what to see in it.
     draw : callable
         From the dataset to a picture of matplotlib.
-    chart : callable, optional
-        From the dataset to a chart of plotly, which the report shows in place of the picture.
     essential : bool
-        Suits a first look.
+        Answers the question of a sweep: drawn with --quick, and open in the report.
     """
 
     name: str
     title: str
     caption: str
     draw: Callable[[xr.Dataset], Any]
-    chart: Callable[[xr.Dataset], Any] | None = None
     essential: bool = False
 
 
 def _map(channel: orders.MapChannel, top: float | None = None) -> Callable[..., Any]:
     return partial(bubbles.spectrum_bubbles, channel=channel, highest_frequency=top)
-
-
-def _map_chart(channel: orders.MapChannel) -> Callable[..., Any]:
-    return partial(_bubble_chart, channel=channel)
 
 
 def _band(channel: charts.ExtremesChannel) -> Callable[..., Any]:
@@ -72,80 +59,29 @@ _BUBBLES = (
 _CAGE_TOP = 80.0  # Hz, shows the cage frequency, its multiples and the pinion rotation
 
 
-def _bubble_chart(dataset: xr.Dataset, channel: MapChannel) -> Any:
-    """Return the lines of a spectrum over speed and frequency, a panel for each preload."""
-    top = default_top(dataset)
-    preloads = [preload_label(float(one)) for one in dataset["preload"].values]
-    chart = panels(preloads, _SPEED, [Axis("frequency", "Hz") for _ in preloads], height=400)
-    points = bubbles.all_lines(dataset, channel, top)
-    peak = bubbles.highest(points, top)
-    speeds = dataset["speed_kmh"].values
-    for kind, words in enumerate(bubbles.KINDS):
-        for row in range(len(preloads)):
-            found = [points[row, column] for column in range(speeds.size)]
-            seen = [(one.kind == kind) & (one.level > peak - bubbles.RANGE) for one in found]
-            level = np.concatenate([one.level[s] for one, s in zip(found, seen, strict=True)])
-            share = np.clip((level - peak + bubbles.RANGE) / bubbles.RANGE, 0.0, 1.0)
-            chart.add_scatter(
-                x=np.repeat(speeds, [int(s.sum()) for s in seen]),
-                y=np.concatenate([one.frequency[s] for one, s in zip(found, seen, strict=True)]),
-                mode="markers",
-                name=words,
-                legendgroup=words,
-                showlegend=row == 0 and level.size > 0,
-                marker={
-                    "size": 2.0 + _LARGEST * share,
-                    "color": bubbles.COLOURS[kind],
-                    "line": {"width": 0.5, "color": "white"},
-                },
-                customdata=level,
-                hovertemplate="%{customdata:.1f} dB re "
-                f"{channel.reference_text}, %{{y:.0f}} Hz at %{{x:g}} km/h<extra>{words}</extra>",
-                row=row + 1,
-                col=1,
-            )
-    for row in range(len(preloads)):
-        modes = bubbles.modes_below(dataset.isel(preload=row), top)
-        # names of neighbours at opposite ends, where they do not touch
-        for number, mode in enumerate(sorted(modes, key=modes.__getitem__)):
-            chart.add_hline(
-                modes[mode],
-                line={"dash": "dot", "width": 1.0, "color": "#808080"},
-                annotation={"text": mode, "font": {"size": 10}},
-                annotation_position=("top left", "top right")[number % 2],
-                row=row + 1,
-                col=1,
-            )
-        chart.update_yaxes(range=[0.0, top], row=row + 1, col=1)
-    return chart
-
-
 CATALOGUE = (
     Entry(
-        name="operating_points",
-        title="Operating points",
+        name="bearing_force_orders",
+        title="Mesh orders of a bearing force",
         essential=True,
-        caption="Mean torques that the road load asks for, and the mesh orders against the natural "
-        "frequencies; a grey bar spans the preloads. The engine's order stays within a band, "
-        "because the gear is chosen for each speed.",
-        draw=operating_points,
+        caption="Amplitudes of the first three mesh orders of the force of pinion bearing 1 along "
+        "y, which shakes the housing. `gearlube runup` shows all bearings and directions.",
+        draw=partial(order_cuts, channel=BEARING_CUTS),
     ),
     Entry(
-        name="dte_map",
-        title="Spectra of the transmission error",
+        name="bearing_force_map",
+        title="Spectra of a bearing force",
         essential=True,
-        caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
-        f"figures 3 and 4). {_BUBBLES}",
-        draw=_map(orders.DTE),
-        chart=_map_chart(orders.DTE),
+        caption=f"Spectra of the force of pinion bearing 1 along y. {_BUBBLES}",
+        draw=_map(orders.BEARING),
     ),
     Entry(
         name="dte_orders",
         title="Mesh orders of the transmission error",
+        essential=True,
         caption="Amplitudes of the first three mesh orders of the transmission error. A peak is a "
         "resonance or a change of the contact.",
         draw=order_cuts,
-        chart=charts.order_chart,
     ),
     Entry(
         name="dte_extremes",
@@ -154,7 +90,45 @@ CATALOGUE = (
         caption="Extremes of the dynamic transmission error (compare figure 5). Below zero the "
         "drive flanks separate; the strip names the kind of separation.",
         draw=_band(charts.DTE),
-        chart=partial(charts.extremes_chart, channel=charts.DTE),
+    ),
+    Entry(
+        name="roller_extremes",
+        title="Extremes of the load of one roller",
+        essential=True,
+        caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
+        "zero has left its races: the preload is too low.",
+        draw=_band(charts.ROLLER),
+    ),
+    Entry(
+        name="efficiency",
+        title="Efficiency and losses",
+        essential=True,
+        caption="Efficiency of the gear mesh (flank friction only, compare figure 12) and of the "
+        "axle with all modelled losses, above the losses themselves.",
+        draw=efficiency,
+    ),
+    Entry(
+        name="film",
+        title="Films while tooth pairs pass the mesh",
+        essential=True,
+        caption="Load, central film thickness, film ratio and film temperature of the tooth pairs "
+        "in mesh, from entry to exit, mean over the record.",
+        draw=film_over_mesh_cycle,
+    ),
+    Entry(
+        name="operating_points",
+        title="Operating points",
+        caption="Mean torques that the road load asks for, and the mesh orders against the natural "
+        "frequencies; a grey bar spans the preloads. The engine's order stays within a band, "
+        "because the gear is chosen for each speed.",
+        draw=operating_points,
+    ),
+    Entry(
+        name="dte_map",
+        title="Spectra of the transmission error",
+        caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
+        f"figures 3 and 4). {_BUBBLES}",
+        draw=_map(orders.DTE),
     ),
     Entry(
         name="dte_waveforms",
@@ -170,30 +144,13 @@ CATALOGUE = (
         caption="Spectra of the radial displacement of the pinion, which excites the casing "
         f"(compare figures 6 and 7). {_BUBBLES}",
         draw=_map(orders.RADIAL),
-        chart=_map_chart(orders.RADIAL),
     ),
     Entry(
         name="radial_extremes",
         title="Extremes of the radial displacement of the pinion",
-        essential=True,
         caption="Extremes of the radial displacement of the pinion, sqrt(y2 + z2) from the "
         "preloaded rest position (compare figure 8).",
         draw=_band(charts.RADIAL),
-        chart=partial(charts.extremes_chart, channel=charts.RADIAL),
-    ),
-    Entry(
-        name="bearing_force_map",
-        title="Spectra of a bearing force",
-        caption=f"Spectra of the force of pinion bearing 1 along y. {_BUBBLES}",
-        draw=_map(orders.BEARING),
-        chart=_map_chart(orders.BEARING),
-    ),
-    Entry(
-        name="bearing_force_orders",
-        title="Mesh orders of a bearing force",
-        caption="Amplitudes of the first three mesh orders of the force of pinion bearing 1 along "
-        "y, which shakes the housing. `gearlube runup` shows all bearings and directions.",
-        draw=partial(order_cuts, channel=BEARING_CUTS),
     ),
     Entry(
         name="roller_map",
@@ -211,38 +168,12 @@ CATALOGUE = (
         draw=_map(orders.ROLLER_LOW, _CAGE_TOP),
     ),
     Entry(
-        name="roller_extremes",
-        title="Extremes of the load of one roller",
-        essential=True,
-        caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
-        "zero has left its races: the preload is too low.",
-        draw=_band(charts.ROLLER),
-        chart=partial(charts.extremes_chart, channel=charts.ROLLER),
-    ),
-    Entry(
         name="roller_zone",
         title="Loaded zone of the bearing",
         caption="Mean (line) and range (band) of the load of one roller over its place around the "
         "shaft. A flat line is a bearing that its preload loads evenly; zero is a "
         "roller that has left its races. Each preload has its own scale.",
         draw=roller_zone,
-    ),
-    Entry(
-        name="efficiency",
-        title="Efficiency and losses",
-        essential=True,
-        caption="Efficiency of the gear mesh (flank friction only, compare figure 12) and of the "
-        "axle with all modelled losses, above the losses themselves.",
-        draw=efficiency,
-        chart=charts.efficiency_chart,
-    ),
-    Entry(
-        name="film",
-        title="Films while tooth pairs pass the mesh",
-        essential=True,
-        caption="Load, central film thickness, film ratio and film temperature of the tooth pairs "
-        "in mesh, from entry to exit, mean over the record.",
-        draw=film_over_mesh_cycle,
     ),
 )
 ESSENTIAL = tuple(entry for entry in CATALOGUE if entry.essential)

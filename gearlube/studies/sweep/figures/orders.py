@@ -26,9 +26,9 @@ class CutChannel:
 
 DTE_CUTS = CutChannel(
     variable="dte_spectrum",
-    label="amplitude [nm]",
+    label="amplitude [µm]",
     title="Order cuts of the dynamic transmission error",
-    scale=1e9,
+    scale=1e6,
 )
 BEARING_CUTS = CutChannel(
     variable="bearing_force_spectrum",
@@ -53,8 +53,7 @@ def order_cuts(dataset: xr.Dataset, channel: CutChannel = DTE_CUTS) -> Any:
                     label=preload_label(preload),
                     **series(row),
                 )
-            name = "$f_m$" if harmonic == 1 else f"${harmonic}f_m$"
-            ax.set_title(f"mesh order H{harmonic} at {name}")
+            ax.set_title(f"mesh order {harmonic}")
             ax.set_xlabel("vehicle speed [km/h]")
             ax.set_xlim(*speed_limits(dataset))
         axes[0].set_ylabel(channel.label)

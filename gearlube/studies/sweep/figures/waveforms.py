@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import (
-    BLUE,
+    GREEN,
+    INK,
     ORANGE,
     SERIES,
-    VERMILLION,
     house_style,
     name_levels,
     new_figure,
@@ -55,7 +55,7 @@ def film_over_mesh_cycle(dataset: xr.Dataset, preload: int = 0) -> Any:
                     ax.plot(
                         phase,
                         values,
-                        color=SERIES[flank],
+                        color=SERIES[preload],
                         ls=style,
                         label=f"tooth pair {flank + 1}",
                     )
@@ -119,7 +119,7 @@ def roller_zone(dataset: xr.Dataset) -> Any:
                     dataset[f"roller_zone_{part}"].values[row, column]
                     for part in ("mean", "min", "max")
                 )
-                colour = SERIES[number % len(SERIES)]
+                colour = SERIES[row % len(SERIES)]
                 ax.fill_between(angle, low, high, color=colour, alpha=0.25, lw=0)
                 speed = float(dataset["speed_kmh"][column])
                 ax.plot(angle, mean, color=colour, ls=_DASHES[number], label=f"{speed:g} km/h")
@@ -153,8 +153,8 @@ def operating_points(dataset: xr.Dataset) -> Any:
 def _torques(ax: Any, row: xr.Dataset) -> None:
     speed = row["speed_kmh"].values
     ax.set_xlim(*speed_limits(row))
-    ax.plot(speed, row["wheel_torque"], color=VERMILLION, marker="s", label="wheel gear, load")
-    ax.plot(speed, row["pinion_torque"], color=BLUE, marker="o", label="pinion, drive")
+    ax.plot(speed, row["wheel_torque"], color=INK, ls="--", marker="s", label="wheel gear, load")
+    ax.plot(speed, row["pinion_torque"], color=INK, marker="o", label="pinion, drive")
     ax.set_ylabel("mean torque [N·m]")
     ax.set_ylim(bottom=0.0)
     ax.legend(loc="upper left")
@@ -167,7 +167,11 @@ def _campbell(ax: Any, dataset: xr.Dataset) -> None:
     ax.set_xlim(*speed_limits(dataset))
     for multiple, style in ((1, "-"), (2, (0, (5, 2))), (3, (0, (1, 1.2)))):
         ax.plot(
-            speed, multiple * row["mesh_frequency"], color=BLUE, ls=style, label=f"mesh H{multiple}"
+            speed,
+            multiple * row["mesh_frequency"],
+            color=GREEN,
+            ls=style,
+            label=f"mesh order {multiple}",
         )
     if "crank_frequency" in dataset:
         ax.plot(
