@@ -64,17 +64,13 @@ def cached_hypoid_axle(
     >>> cached_hypoid_axle(axle="my_axle.toml").name  # doctest: +SKIP
     'HypoidAxle.fmu'
     """
-    from fmu_src.identity import guid_of
     from fmu_src.native.build import NativeOptions
     from fmu_src.native.platforms import platform_of_this_machine
-    from gearlube_core.storage.folders import user_folder
 
-    definition = axle_definition(mesh_table, axle)
     native = can_build_native() if native is None else native
-    key = f"native-{_native_digest()}-" if native else ""
-    folder = user_folder() / "fmu" / f"{key}{guid_of(definition)}"
-    path = folder / f"{definition.name}.fmu"
+    path = cached_axle_path(mesh_table, axle=axle, native=native)
     if not path.is_file():
+        folder = path.parent
         folder.mkdir(parents=True, exist_ok=True)
         options = None
         if native:
@@ -84,6 +80,19 @@ def cached_hypoid_axle(
             )
         build_models(folder, "hypoid-axle", mesh_table, axle=axle, native=options)
     return path
+
+
+def cached_axle_path(
+    mesh_table: Path | None = None, *, axle: Path | str | None = None, native: bool | None = None
+) -> Path:
+    """Return where `cached_hypoid_axle` keeps its FMU, whether it is there or not."""
+    from fmu_src.identity import guid_of
+    from gearlube_core.storage.folders import user_folder
+
+    definition = axle_definition(mesh_table, axle)
+    native = can_build_native() if native is None else native
+    key = f"native-{_native_digest()}-" if native else ""
+    return user_folder() / "fmu" / f"{key}{guid_of(definition)}" / f"{definition.name}.fmu"
 
 
 def _native_digest() -> str:

@@ -211,7 +211,7 @@ def driveline_model(car: DrivelineParameters | None = None) -> NativeModel:
             shipped_data=(),
         ),
         c_code=_c_code(car, [v.range for v in variables if v.causality == "input"]),
-        data=data,
+        make_data=lambda: data,
         state_size=_STATE_SIZE,
         control_at=_N + _N_INPUTS,
         work_size=_RANGES_AT + 2,

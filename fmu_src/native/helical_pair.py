@@ -219,7 +219,7 @@ def native_model(definition: Definition) -> NativeModel:
         definition=definition,
         entry=_entry(layout.pair_assembly(oil)) if own_laws else _PLAIN_ENTRY,
         kind="" if own_laws else "laws of the package",
-        data=cases.data,
+        make_data=lambda: cases.data,
         state_size=layout.STATE_SIZE,
         control_at=layout.CONTROL_AT,
         work_size=layout.MEMORY_AT + cases.longest_memory,

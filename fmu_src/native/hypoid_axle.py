@@ -299,21 +299,24 @@ def native_model(definition: Definition) -> NativeModel:
     at = axle_places(found, place, axle)
     sizes = DataSizes.of(packed_mesh, found)
     unknown = tuple_from_array(np.full(at.settings, np.nan), AxleParameters, *kinds)
-    data = np.concatenate(
-        [
-            flatten(sizes),
-            found.base,
-            flatten(without_losses(unknown)),  # NaN where they stay
-            axle.constants,
-            flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
-            roller_film_model("solved_films", by_default.roller_film_model),
-            loss_sensitivities(by_default).ravel(),
-            *found.arrays[1:],
-            packed_mesh.levels,
-            *series,
-            *windows,
-        ]
-    )
+
+    def make_data() -> Array:
+        return np.concatenate(
+            [
+                flatten(sizes),
+                found.base,
+                flatten(without_losses(unknown)),  # NaN where they stay
+                axle.constants,
+                flank_film_model(by_default.flank_film_model or shipped_model(FLANK)),
+                roller_film_model("solved_films", by_default.roller_film_model),
+                loss_sensitivities(by_default).ravel(),
+                *found.arrays[1:],
+                packed_mesh.levels,
+                *series,
+                *windows,
+            ]
+        )
+
     unnamed = replace(by_default, oil=replace(by_default.oil, name="the oil"))
     parameters = [v.argument for v in definition.variables if v.is_model_parameter]
     of_run = parameters.index("pinion_speed"), parameters.index(OF_HOLDER[0]), len(OF_HOLDER)
@@ -325,7 +328,7 @@ def native_model(definition: Definition) -> NativeModel:
         definition=definition,
         entry=_entry(kinds, axle, at, len(parameters), of_run, structure, counting),
         kind="" if laws else kind_of_classes(kinds, words),
-        data=data,
+        make_data=make_data,
         state_size=states + _N_INPUTS + 1,
         control_at=states + _N_INPUTS,
         work_size=at.series + work_behind(sizes, at.others),

@@ -119,7 +119,7 @@ def loss_map_model(
             map_shape=shape,
         ),
         c_code={_ENTRY.name: _ENTRY.read_text("utf-8")},
-        data=np.array([*shape, len(maps), *limits], dtype=float),
+        make_data=lambda: np.array([*shape, len(maps), *limits], dtype=float),
         state_size=len(_AXES) + 1,
         control_at=len(_AXES),
         work_size=len(limits) + sum(v.is_model_parameter for v in table),

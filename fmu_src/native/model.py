@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
+from functools import cached_property
 
 from numba import types
 
@@ -89,8 +90,9 @@ class NativeModel:
         `parameters` are the values of the FMI parameters and `inputs` those of the inputs, both
         in the order of the variables; `outputs` follow `definition.output_names`. The status is
         OK or a key of `refusals`; with any other status but OK `state` is unchanged.
-    data : ndarray of shape (n,)
-        Constants that only a table or a gear decides.
+    make_data : callable
+        Returns `data`. It is called once, where `kind` is given after the library is built, which
+        needs none of them.
     kind : str
         All that the entry is compiled for, in words. Then it must not depend on `data`, `work_size`
         or any words of the model, and it must know the operation CHECK: the library is kept for all
@@ -131,7 +133,7 @@ class NativeModel:
     """
 
     definition: Definition
-    data: Array
+    make_data: Callable[[], Array]
     state_size: int
     control_at: int
     work_size: int
@@ -148,3 +150,8 @@ class NativeModel:
     any_sizes: bool = False
     uncertain: tuple[Uncertain, ...] = ()
     in_python: Callable[[Mapping[str, Value], Sequence[float]], Stepped] | None = None
+
+    @cached_property
+    def data(self) -> Array:
+        """Constants that only a table or a gear decides, of shape (n,)."""
+        return self.make_data()

@@ -228,7 +228,7 @@ def train_model(path: str | Path) -> NativeModel:
     model = NativeModel(
         definition=definition,
         entry=None,
-        data=np.concatenate([np.array(at, dtype=np.int64).view(float), *parts]),
+        make_data=lambda: np.concatenate([np.array(at, dtype=np.int64).view(float), *parts]),
         state_size=at.state_end,
         control_at=at.state_end - 1,
         work_size=at.work_end,

@@ -198,7 +198,7 @@ def small_native_model(
             shipped_data=(),
         ),
         entry=entry,
-        data=np.array([40.0, 30.0]),
+        make_data=lambda: np.array([40.0, 30.0]),
         state_size=N_STATE,
         control_at=LIMIT,
         work_size=N_WORK,

@@ -66,7 +66,9 @@ def test_models_of_a_kind_share_their_libraries_whatever_their_numbers_and_words
     builds: Builds,
 ) -> None:
     one = of_kind("one")
-    other = of_kind("one", data=np.arange(9.0), work_size=99, refusals={1: "another word"})
+    other = of_kind(
+        "one", make_data=lambda: np.arange(9.0), work_size=99, refusals={1: "another word"}
+    )
     said: list[str] = []
     first = libraries(one, TWO)
     assert libraries(other, TWO, said.append) == first
@@ -89,7 +91,7 @@ def test_a_model_without_a_kind_is_built_each_time_and_says_so(builds: Builds) -
         libraries(small_native_model(), TWO[:1], said.append)
     assert builds.asked == 2 * NAMES[:1]
     assert "for this model alone, which is not kept" in said[0]
-    changed = replace(small_native_model(), data=np.array([40.0, 29.0]))
+    changed = replace(small_native_model(), make_data=lambda: np.array([40.0, 29.0]))
     assert library_kind(small_native_model()) != library_kind(changed)
 
 

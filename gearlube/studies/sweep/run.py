@@ -38,6 +38,7 @@ from gearlube.studies.sweep.settings import PRELOAD_RANGE, SPEED_RANGE, SweepSet
 from gearlube.studies.sweep.unpack import fmu_guid, fmu_kind, unpacked
 from gearlube_core import __version__
 from gearlube_core.checks import check_within
+from gearlube_core.dynamics.hypoid_axle.loss_band import loss_sensitivities
 from gearlube_core.errors import InterruptedRunError, ParameterError
 from gearlube_core.input_file.input_file import notes_as_text
 from gearlube_core.progress import Progress, no_progress, part_of
@@ -180,7 +181,7 @@ def run_sweep(
     ...     settings, speeds_kmh=[60.0], preloads=[2500.0, 6000.0], out="gearlube_sweep"
     ... )
     """
-    from fmu_src.build import cached_hypoid_axle
+    from fmu_src.build import cached_axle_path, cached_hypoid_axle
 
     speeds = sorted({check_within("speed", v, *SPEED_RANGE, "km/h") for v in speeds_kmh})
     loads = sorted(
@@ -203,11 +204,13 @@ def run_sweep(
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
             stack.enter_context(locked_folder(folder))
-        if fmu is None:
-            progress(0.0, "the FMU of the axle; it is built if none is kept")
+        to_build = fmu is None and not cached_axle_path(mesh_table, axle=axle).is_file()
+        modes = _modes_aside(
+            stack, model, loads, speeds[len(speeds) // 2], settings, car_axle, to_build=to_build
+        )
+        if to_build:
+            progress(0.0, "building the FMU of the axle")
         archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
-        # after the build, whose kernels are then not compiled twice at once
-        modes = _modes_aside(stack, model, loads, speeds[len(speeds) // 2], settings, car_axle)
         progress(0.0, "starting the first points")
         directory = stack.enter_context(unpacked(archive))
         guid, kind = fmu_guid(directory), fmu_kind(directory)
@@ -285,16 +288,21 @@ def _modes_aside(
     speed_kmh: float,
     settings: SweepSettings,
     car_axle: CarAxle,
+    *,
+    to_build: bool,
 ) -> Callable[[], xr.Dataset | None]:
     """Begin the natural modes in a process of their own; return what waits for them.
 
-    They compile kernels when the machine has none yet, beside the first points.
+    They compile kernels when the machine has none yet, beside the build of the FMU and the first
+    points. Before them the process compiles what the build needs at its end.
     """
     if model.natural_frequencies is None:
         return lambda: None
     executor = stack.enter_context(
         ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=stop_on_interrupt)
     )
+    if to_build:
+        executor.submit(loss_sensitivities, car_axle.axle)
     found = executor.submit(model.natural_frequencies, preloads, speed_kmh, settings, car_axle)
 
     def result() -> xr.Dataset | None:
