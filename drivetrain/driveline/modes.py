@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from gearlube_core.dynamics.hypoid_axle.linearise import COORDINATES, LinearAxle
 
 _SCALE = 1e3  # rad/s
 _STILL = 0.1  # rad/s, below which a motion is one of a rigid body
+LOWEST = 100.0  # Hz, modes of the car below it lie below the mesh frequencies
 AXLE_SPRINGS = ("mesh", "bearings")  # springs that are not in the car
 # moving parts of the axle, with their coordinates
 _MOVING = {
@@ -39,11 +41,15 @@ class DrivelineMode:
         Share of every moving part in the kinetic energy of the mode [-].
     strain : dict of str, float
         Share of every spring in the potential energy [-].
+    shape : array, optional
+        Of the axle's COORDINATES [rad], [m], where the mode of all moving parts has modal mass 1,
+        at the instant of its largest motion.
     """
 
     eigenvalue: complex
     motion: dict[str, float]
     strain: dict[str, float]
+    shape: Array | None = None
 
     @property
     def frequency(self) -> float:
@@ -69,6 +75,18 @@ class DrivelineMode:
             return f"{moving} on {spring}"
         turning = sum(share for name, share in self.motion.items() if name.endswith("turning"))
         return "mesh" if turning >= self.motion[moving] else moving
+
+
+def numbered(names: Sequence[str]) -> list[str]:
+    """Return names with a number behind those that come more than once.
+
+    >>> numbered(["mesh", "gear radial", "gear radial"])
+    ['mesh', 'gear radial 1', 'gear radial 2']
+    """
+    return [
+        f"{name} {names[: i + 1].count(name)}" if names.count(name) > 1 else name
+        for i, name in enumerate(names)
+    ]
 
 
 def driveline_modes(
@@ -149,11 +167,15 @@ def coupled_modes(linear: LinearAxle, driveline: Driveline | None) -> tuple[Driv
             name: 0.5 * float(sum(mass[i] * abs(motion[i]) ** 2 for i in places))
             for name, places in _MOVING.items()
         }
+        energy = {**turned, **_energies(moving, at_car)}
+        largest = shape[np.argmax(np.abs(motion) * np.sqrt(mass))]
+        turned_real = (shape * abs(largest) / largest).real
         found.append(
             DrivelineMode(
                 eigenvalue=value,
-                motion=_shares({**turned, **_energies(moving, at_car)}),
+                motion=_shares(energy),
                 strain=_shares({**strained, **_energies(springs, at_car)}),
+                shape=turned_real * abs(value) / np.sqrt(2.0 * sum(energy.values())),
             )
         )
     return tuple(found)

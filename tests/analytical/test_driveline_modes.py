@@ -96,6 +96,10 @@ def test_undamped_modes_of_axle_and_car_are_those_of_their_matrices() -> None:
             whole = shape @ sum(parts.values()) @ shape
             for name, matrix in parts.items():
                 assert one.strain[name] == pytest.approx(shape @ matrix @ shape / whole, abs=1e-4)
+            moved = np.sqrt(np.diag(MASSES)) * one.shape  # modal mass 1 in both; the sign is free
+            expected = np.sqrt(np.diag(MASSES)) * shape[:8]
+            assert np.abs(moved @ expected) == pytest.approx(expected @ expected, abs=1e-4)
+            assert moved @ moved == pytest.approx(expected @ expected, abs=1e-4)
 
 
 def test_a_stiff_axle_in_its_car_has_the_modes_of_a_rigid_one() -> None:

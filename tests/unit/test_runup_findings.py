@@ -13,7 +13,13 @@ from gearlube.studies.runup import levels
 from gearlube.studies.runup.dataset import operating_shape
 from gearlube.studies.runup.figures.catalogue import bearing_spectra
 from gearlube.studies.runup.figures.tracks import order_tracks
-from gearlube.studies.runup.findings import critical_speeds, findings, numbers, peaks
+from gearlube.studies.runup.findings import (
+    _of_the_car,
+    critical_speeds,
+    findings,
+    numbers,
+    peaks,
+)
 from gearlube.studies.runup.modes import RampModes
 from gearlube.studies.runup.report import summary_csv, tables
 from gearlube.studies.runup.run import run_runup
@@ -86,6 +92,17 @@ def test_an_order_that_grows_at_the_end_is_told_although_another_is_louder(ramp)
     assert first.headline.startswith("The loudest is mesh order 2: ")
     headlines = " ".join(one.headline for one in others)
     assert "critical speed of mesh order 1 lies above the ramp, 3 % away" in headlines
+
+
+def test_a_resonance_of_the_car_is_said_to_depend_on_its_assumed_stiffness(ramp) -> None:
+    strain = np.where(ramp["mode"].values == ramp["mode"].values[0], 0.8, 0.0)
+    coupled = ramp.assign(mode_car_strain=("mode", strain))
+    coupled.attrs["inputs_assumed"] = '[["driveline.propshaft_stiffness"]]'
+    words = _of_the_car(coupled, str(ramp["mode"].values[0]))
+    assert words.startswith("80 % of its strain energy is in springs of the car, whose stiffnesses")
+    assert "Run without --engine-orders" in words
+    assert not _of_the_car(coupled, str(ramp["mode"].values[1]))
+    assert not _of_the_car(ramp, str(ramp["mode"].values[0]))
 
 
 def test_table_and_summary_have_every_crest_and_block(ramp) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,6 @@ import xarray as xr
 
 from gearlube.plotting.style import GREY, MARKERS, SERIES, house_style, new_figure
 from gearlube_core.bearings.losses.laws import ROLLING
-from gearlube_core.storage.atomic_file import write_figure
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 
 LAW_NAMES = {one.name: one.words for one in ROLLING} | {
@@ -74,17 +72,6 @@ def parts_of_first_law(dataset: xr.Dataset) -> Any:
 
 
 BEARING_CATALOGUE = {"torque": torque_of_laws, "parts": parts_of_first_law}
-
-
-def save_bearing_figures(dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Draw every figure into `folder` as PNG and return the files."""
-    folder.mkdir(parents=True, exist_ok=True)
-    files = []
-    for name, draw in BEARING_CATALOGUE.items():
-        path = folder / f"{name}.png"
-        write_figure(draw(dataset), path)
-        files.append(path)
-    return files
 
 
 def _look(row: int) -> dict[str, Any]:

@@ -11,9 +11,10 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.films import film_model_attributes
 from gearlube.report.result import Result
-from gearlube.studies.bearing.figures import save_bearing_figures
+from gearlube.studies.bearing.figures import BEARING_CATALOGUE
 from gearlube_core import __version__
 from gearlube_core.bearings.bearing_file import BearingFile
 from gearlube_core.bearings.losses.geometry import BearingGeometry
@@ -200,7 +201,8 @@ def write_bearing(dataset: xr.Dataset, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     write_dataset(dataset, folder / "bearing.nc")
     write_text(_bearing_rows(dataset), folder / "bearing.csv")
-    save_bearing_figures(dataset, folder / "figures")
+    drawn = {name: draw(dataset) for name, draw in BEARING_CATALOGUE.items()}
+    save_figure_folder(drawn, folder / "figures")
 
 
 def _bearing_dataset(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,13 +10,6 @@ import xarray as xr
 from gearlube.plotting.cycle import cycle_panels
 from gearlube.plotting.style import BLUE, house_style
 from gearlube.plotting.words import source_colour, source_words
-from gearlube_core.storage.atomic_file import write_figure
-
-
-def save_cycle_figures(dataset: xr.Dataset, folder: Path) -> None:
-    """Write the figure as PNG."""
-    folder.mkdir(parents=True, exist_ok=True)
-    write_figure(cycle_figure(dataset), folder / "drive_cycle.png")
 
 
 def cycle_figure(dataset: xr.Dataset) -> Any:

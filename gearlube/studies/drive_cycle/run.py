@@ -11,12 +11,13 @@ import xarray as xr
 
 from drivetrain.sump_heat import SumpHeat, Warming, warm
 from gearlube.output.csv_text import csv_text
+from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.plotting.words import not_modelled
 from gearlube.report.churning import REGIME, churning_regime
 from gearlube.report.cycle import KJ, Variable, energy, steps_dataset, variables_of
 from gearlube.report.films import covered_alone, film_model_attributes
 from gearlube.report.result import Result
-from gearlube.studies.drive_cycle.figures import save_cycle_figures
+from gearlube.studies.drive_cycle.figures import cycle_figure
 from gearlube.studies.drive_cycle.loss_field import (
     Demand,
     LossesAlong,
@@ -287,7 +288,7 @@ def run_cycle(
             ratio = settings.car.driveline.road_load.final_drive.ratio
             write_text(fastsim_text(one, settings.cycle.name), folder / "fastsim.yaml")
             write_text(co2mpas_text(one, ratio), folder / "co2mpas.csv")
-        save_cycle_figures(dataset, folder / "figures")
+        save_figure_folder({"drive_cycle": cycle_figure(dataset)}, folder / "figures")
     return dataset
 
 

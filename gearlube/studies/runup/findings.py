@@ -21,6 +21,7 @@ SWEEP_RATE = 3.6  # z^2 f^2 Hz/s, [iso_7626_2]: 216 z^2 f^2 Hz/min
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
 _MARKED = 3  # mesh orders whose critical speeds are listed
 _NAMED = 3  # critical speeds that are named one by one
+_OF_CAR = 0.1  # of the strain energy of a mode, from which the car counts
 _NARROW = 0.15  # of a speed: a margin below it is worth a warning
 
 
@@ -195,6 +196,8 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
             f"The nearest critical speed of that order is {how_far}: natural mode '{near.mode}', "
             f"{near.frequency:.0f} Hz. "
         )
+    if resonant and near is not None:
+        detail += _of_the_car(dataset, near.mode)
     shares = dataset["shape_share"].values
     most = int(np.argmax(shares))
     detail += (
@@ -216,6 +219,20 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
             f"{detail}The others: {words}.",
         )
     ]
+
+
+def _of_the_car(dataset: xr.Dataset, mode: str) -> str:
+    """Return how much of a mode is in the car, and how to compute the ramp without the car."""
+    strain = dataset.get("mode_car_strain")
+    share = 0.0 if strain is None else float(strain.sel(mode=mode))
+    if share < _OF_CAR:
+        return ""
+    given = str(dataset.attrs.get("inputs_assumed", ""))
+    assumed = ", whose stiffnesses are assumed" if "driveline.propshaft_stiffness" in given else ""
+    return (
+        f"{100.0 * share:.0f} % of its strain energy is in springs of the car{assumed}. Run "
+        "without --engine-orders for the axle without the car. "
+    )
 
 
 def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
+from drivetrain.driveline.model import Driveline
+from drivetrain.driveline.modes import LOWEST, coupled_modes, numbered
 from drivetrain.ramp_vehicle import gear_for_ramp
 from gearlube.studies.runup.settings import VEHICLE, RunupSettings
 from gearlube_core.arrays import Array
-from gearlube_core.dynamics.hypoid_axle.linearise import AxleMode, named_modes
+from gearlube_core.dynamics.hypoid_axle.linearise import linearise, named_modes
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
 from gearlube_core.errors import ParameterError
 
@@ -42,6 +45,8 @@ class RampModes:
         Of each coordinate, turning reduced to the contact [kg], shape (8,).
     radii : tuple of float
         Contact radii of pinion and gear [m].
+    car_strain : array, optional
+        Share of the strain energy in springs of the car [-], at the middle speed, shape (modes,).
     """
 
     speed: Array
@@ -51,6 +56,7 @@ class RampModes:
     shape: Array
     mass: Array
     radii: tuple[float, float]
+    car_strain: Array | None = None
 
     def critical_speed(self, mode: int, order: float) -> float:
         """Return the pinion speed [rad/s] at which `order` (of the pinion) meets a mode.
@@ -92,7 +98,7 @@ def ramp_modes(settings: RunupSettings, torque: Array) -> RampModes:
     axle = HypoidAxle(settings.car_axle.axle)
     mass = _masses(axle)
     middle = _NODES // 2
-    found: dict[int, list[AxleMode]] = {}
+    found: dict[int, list[_Mode]] = {}
     for i in sorted(range(_NODES), key=lambda one: abs(one - middle)):
         axle.initialise(
             pinion_speed=float(speeds[i]),
@@ -100,7 +106,7 @@ def ramp_modes(settings: RunupSettings, torque: Array) -> RampModes:
             wheel_torque=float(torques[i]) * axle.parameters.mesh.ratio,
             oil_temperature=settings.oil_temperature,
         )
-        modes = list(named_modes(axle, settings.oil_temperature, float(torques[i])))
+        modes = _modes(settings, axle, float(speeds[i]), float(torques[i]))
         # the neighbour towards the middle is known already
         before = found.get(i + (1 if i < middle else -1))
         found[i] = modes if before is None else _matched(before, modes, mass)
@@ -118,7 +124,34 @@ def ramp_modes(settings: RunupSettings, torque: Array) -> RampModes:
         shape=shapes[places],
         mass=(mass / at_contact**2)[places],
         radii=radii,
+        car_strain=np.array([one.car_strain for one in found[middle]]),
     )
+
+
+class _Mode(NamedTuple):
+    name: str
+    frequency: float
+    damping_ratio: float
+    shape: Array
+    car_strain: float = 0.0
+
+
+def _modes(settings: RunupSettings, axle: HypoidAxle, speed: float, torque: float) -> list[_Mode]:
+    """Return the modes of what is simulated: of the axle, or of axle and car together."""
+    kelvin, car = settings.oil_temperature, settings.car_axle.driveline
+    if settings.driver != VEHICLE:
+        modes = named_modes(axle, kelvin, torque)
+        return [_Mode(one.name, one.frequency, one.damping_ratio, one.shape) for one in modes]
+    linear = linearise(axle, kelvin, torque)
+    line = Driveline(
+        car, speed * car.rolling_radius / car.axle_ratio, gear=gear_for_ramp(car, settings.ramp)
+    )
+    found = [one for one in coupled_modes(linear, line) if one.frequency > LOWEST]
+    return [
+        _Mode(name, one.frequency, one.damping_ratio, one.shape, one.car_strain)
+        for name, one in zip(numbered([one.name for one in found]), found, strict=True)
+        if one.shape is not None
+    ]
 
 
 def _masses(axle: HypoidAxle) -> Array:
@@ -126,7 +159,7 @@ def _masses(axle: HypoidAxle) -> Array:
     return np.array([p.I_p, p.I_g, *3 * [p.m_p], *3 * [p.m_g]])
 
 
-def _matched(before: list[AxleMode], modes: list[AxleMode], mass: Array) -> list[AxleMode]:
+def _matched(before: list[_Mode], modes: list[_Mode], mass: Array) -> list[_Mode]:
     """Return `modes` in the order of those before, each with the shape most like it."""
     from scipy.optimize import linear_sum_assignment
 

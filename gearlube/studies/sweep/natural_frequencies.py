@@ -12,7 +12,7 @@ import xarray as xr
 
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.driveline.model import Driveline
-from drivetrain.driveline.modes import DrivelineMode, coupled_modes
+from drivetrain.driveline.modes import LOWEST, DrivelineMode, coupled_modes, numbered
 from drivetrain.driveline.parameters import DrivelineParameters
 from drivetrain.steady_temperature import steady_temperature
 from drivetrain.sump_heat import SumpHeat
@@ -23,8 +23,6 @@ from gearlube_core.units import kmh_to_ms
 
 _ROUNDS, _SETTLED = 20, 1e-4  # K; a round leaves some per cent of the last one's change
 logger = logging.getLogger(__name__)
-
-_LOWEST_MODE = 100.0  # Hz, lower ones lie below the mesh frequencies of a sweep
 
 
 def oil_at_rest(car: CarAxle, speed_kmh: float, settings: SweepSettings) -> SweepSettings:
@@ -112,20 +110,8 @@ def natural_frequencies(
             "mode_damping": (("preload", "mode"), damping),
             "mode_strain": (("mode", "spring"), strain),
         },
-        coords={"mode": _numbered([one.name for one in first]), "spring": springs},
+        coords={"mode": numbered([one.name for one in first]), "spring": springs},
     )
-
-
-def _numbered(names: Sequence[str]) -> list[str]:
-    """Return names with a number behind those that come more than once.
-
-    >>> _numbered(["mesh", "gear radial", "gear radial"])
-    ['mesh', 'gear radial 1', 'gear radial 2']
-    """
-    return [
-        f"{name} {names[: i + 1].count(name)}" if names.count(name) > 1 else name
-        for i, name in enumerate(names)
-    ]
 
 
 def _modes(
@@ -155,7 +141,7 @@ def _modes(
     except GearLubeError as error:
         logger.warning("No natural frequencies at %g N: %s", preload, error)
         return ()
-    return tuple(one for one in found if one.frequency > _LOWEST_MODE)
+    return tuple(one for one in found if one.frequency > LOWEST)
 
 
 def crank_frequencies(driveline: DrivelineParameters, speeds_kmh: Sequence[float]) -> list[float]:

@@ -235,20 +235,26 @@ def nearest_mode(dataset: xr.Dataset, peak: Peak) -> NearMode | None:
     return NearMode(str(dataset["mode"].values[at]), float(row.values[at]), share, spring)
 
 
+_OF_ORDERS = (
+    ("dte_spectrum", "transmission error", 1e6, "µm"),
+    ("bearing_force_spectrum", "bearing forces", 1.0, "N"),
+)
+
+
 def numbers(dataset: xr.Dataset) -> list[Number]:
     """Return the key numbers of a sweep with a finished point."""
     if "dte_pp" not in dataset:
         return []
     found = []
-    if peaks := peak_orders(dataset):
-        top = max(peaks, key=lambda one: one.amplitude)
-        found += [
-            Number(
-                "largest mesh order of the transmission error, amplitude", 1e6 * top.amplitude, "µm"
-            ),
-            Number("largest mesh order of the transmission error, order", top.order, "", 1),
-            Number("largest mesh order of the transmission error, at", top.speed_kmh, "km/h", 2),
-        ]
+    tops = largest_peaks(dataset)
+    for variable, words, factor, unit in _OF_ORDERS:
+        if top := tops.get(variable):
+            name = f"largest mesh order of the {words}"
+            found += [
+                Number(f"{name}, amplitude", factor * top.amplitude, unit),
+                Number(f"{name}, order", top.order, "", 1),
+                Number(f"{name}, at", top.speed_kmh, "km/h", 2),
+            ]
     loss = dataset["loss"].sum("source", skipna=False)
     warmest = kelvin_to_celsius(_most(dataset["flank_temperature_max"]))
     return [

@@ -252,9 +252,9 @@ CATALOGUE = (
     Entry(
         name="campbell",
         title="Campbell diagram",
-        caption="Natural frequencies of the axle, named after the coordinate with most of the "
-        "kinetic energy, and the orders that may excite them. Circles: critical speeds of the "
-        "mesh orders.",
+        caption="Natural frequencies of the axle, in its car those of both together, named after "
+        "the part with most of the kinetic energy, and the orders that may excite them. Circles: "
+        "critical speeds of the mesh orders.",
         draw=campbell,
     ),
     Entry(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -19,7 +18,6 @@ from gearlube.studies.sweep.figures.waveforms import (
     roller_zone,
     waveforms,
 )
-from gearlube_core.storage.atomic_file import write_figure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,14 +175,3 @@ CATALOGUE = (
     ),
 )
 ESSENTIAL = tuple(entry for entry in CATALOGUE if entry.essential)
-
-
-def save_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
-    """Draw every figure of the catalogue into `directory` as PNG and return the files."""
-    directory.mkdir(parents=True, exist_ok=True)
-    files = []
-    for entry in CATALOGUE:
-        path = directory / f"{entry.name}.png"
-        write_figure(entry.draw(dataset), path)
-        files.append(path)
-    return files
