@@ -66,7 +66,7 @@ PAGES: dict[str, tuple[type[InputFile], ...]] = {
     "train_file": (TrainFile,),
 }
 _AGAIN = "As above: "
-_MANY = 4  # rows that are not written again
+_MANY = 3  # rows that are not written again
 _TABLE = re.compile(
     rf"(?<=^### )(.*\n\n\| Field \| Value \|.*\n.*\n)(?:\|.*\n)+(?:\n{_AGAIN}.*\n)?", re.MULTILINE
 )

@@ -55,7 +55,7 @@ def main() -> None:
         *(f"{steady_off(car, speed):.2f}" for speed in STEADY_KMH),
     )
     page.fill("80 °C, preload {} N. What the report", f"{ramp.attrs['bearing_preload']:.0f}")
-    found = (f"- **{one.headline}** {one.detail}".rstrip() for one in findings(ramp))
+    found = (f"- **{one.headline}** {one.detail}".rstrip() for one in findings(ramp)[:4])
     page.paragraph("Findings of the report:", "\n".join(found))
     page.write()
 

@@ -51,7 +51,7 @@ def write(sound: Sound, folder: Path) -> None:
         shutil.copy(folder / "figures" / f"{name}.png", IMAGES / f"sound_{name}.png")
     page = Page("sound")
     page.paragraph("<!-- begin: written by docs.sound.make -->", "\n".join(lines))
-    page.paragraph("Findings of the command:", "\n".join(f"- {x}" for x in sound.findings))
+    page.paragraph("Findings of the command:", "\n".join(f"- {x}" for x in sound.findings[:5]))
     page.write()
 
 
