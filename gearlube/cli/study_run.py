@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import logging
-import shlex
-import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -18,6 +16,7 @@ from rich.table import Table
 
 from gearlube.cli.exit_codes import console, exit_on_error
 from gearlube.cli.results_folder import results_folder
+from gearlube.report.page import write_report
 from gearlube.report.parts import WARNING, Finding, ranked
 from gearlube_core.progress import Progress
 
@@ -79,11 +78,7 @@ class StudyRun:
 
     def finish(self, report: Report) -> Path:
         """Write report.html with the command and the time it took; log the findings."""
-        from gearlube.report.page import write_report
-
-        facts = [
-            ("command", command_line()), *report.facts, ("time", f"{self.seconds:.1f} s")
-        ]  # fmt: skip
+        facts = [*report.facts, ("time", f"{self.seconds:.1f} s")]
         path = write_report(replace(report, facts=facts), self.out)
         tell_findings(report.findings, path)
         return path
@@ -159,11 +154,6 @@ def empty_table(title: str, *headings: str, **look: Any) -> Table:
         right = heading.startswith(">")
         table.add_column(heading.removeprefix(">"), justify="right" if right else "left")
     return table
-
-
-def command_line() -> str:
-    """Return the command as it was typed."""
-    return shlex.join(["gearlube", *sys.argv[1:]])
 
 
 def tell_findings(findings: Sequence[Finding], report: Path) -> None:

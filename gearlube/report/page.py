@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import gzip
 import platform
+import shlex
+import sys
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cache
@@ -26,7 +28,7 @@ _HERE = "gearlube.report"
 
 
 def write_report(report: Report, folder: Path | str) -> Path:
-    """Write FOLDER/report.html and return its path.
+    """Write FOLDER/report.html, with the command that runs, and return its path.
 
     Parameters
     ----------
@@ -43,8 +45,17 @@ def write_report(report: Report, folder: Path | str) -> Path:
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / PAGE
+    if (typed := command_line()) and "command" not in dict(report.facts):
+        report = replace(report, facts=[("command", typed), *report.facts])
     write_text(report_html(report), path)
     return path
+
+
+def command_line() -> str:
+    """Return the command as it was typed, empty outside a command."""
+    from gearlube.report.inputs import get_current_context  # help does without input files
+
+    return shlex.join(["gearlube", *sys.argv[1:]]) if get_current_context(silent=True) else ""
 
 
 def report_html(report: Report, made: str = "") -> str:

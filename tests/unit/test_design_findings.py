@@ -151,7 +151,7 @@ def test_a_design_has_its_known_key_numbers_findings_and_tables(tmp_path):
             ["field", "value", "origin"], ["pinion.machine.tilt_angle_deg", "20.2", "chosen"]
         ],
     }  # fmt: skip
-    report = design_report(made, tmp_path, "gearlube design")
+    report = design_report(made, tmp_path)
     assert_tables(report.tables, tables)
     assert "working depth" in report_html(report)
 

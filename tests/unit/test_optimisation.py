@@ -254,7 +254,7 @@ def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
         front_loss=("front", [0.95, 0.9]),
         front_value=(("front", "parameter"), [[7.0], [5.0]]),
     )
-    report = optimise_report(better, "gearlube optimise")
+    report = optimise_report(better)
     charts = {one.name: [list(line.y) for line in one.chart.data] for one in report.figures}
     np.testing.assert_allclose(charts["mesh_orders"], [[20.0], [2.0], [24.0], [10.0]])
     shape = 10.0 * np.cos(2.0 * np.pi * np.arange(9) / 8)

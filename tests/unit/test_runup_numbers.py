@@ -183,7 +183,7 @@ def test_a_ramp_has_its_known_tables_and_rows():
 
 
 def test_the_report_of_a_ramp_says_what_ran():
-    report = runup_report([ramp()], {}, "gearlube runup")
+    report = runup_report([ramp()], {})
     assert report.title == "Run-up of a lubricated hypoid axle"
     # 100 and 200 rad/s; 27 and 54 km/h
     known = ["80 N·m", "955", "1910 rpm", "27", "54 km/h", "20 s"]
@@ -192,7 +192,7 @@ def test_the_report_of_a_ramp_says_what_ran():
         ("bench", ""), ("954.93", "rpm"), ("1909.86", "rpm"), ("20", "s"), ("80", "N·m"),
         ("80", "°C"), ("0.25", ""), ("4000", "Hz"), ("32768", "Hz"), ("1", "s"), ("an_oil", ""),
     ]  # fmt: skip
-    facts = ["gearlube runup", "1", "made by hand", "a table", "2500 N", "an_oil"]
+    facts = ["1", "made by hand", "a table", "2500 N", "an_oil"]
     assert [fact for _, fact in report.facts] == facts
     down = ramp().assign_attrs(ramp="coast-down")
     down.attrs |= {"setting_start_speed": 200.0, "setting_end_speed": 100.0}

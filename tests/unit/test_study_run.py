@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 
 from gearlube.cli.option_groups import MultiValueCommand
 from gearlube.cli.study_run import progress_on, run_next, study_run
+from gearlube.report.page import write_report
+from gearlube.report.parts import Report
 
 
 @pytest.mark.parametrize("code", [0, 3])
@@ -108,3 +110,13 @@ def test_progress_that_stands_still_is_told_each_half_a_minute(caplog, monkeypat
     assert [one.getMessage() for one in caplog.records] == [
         f"sweep 0 % after {30 * i} s: compiling" for i in (1, 2, 3)
     ]
+
+
+def test_a_report_within_a_command_says_the_command(tmp_path, monkeypatch):
+    monkeypatch.setattr("sys.argv", ["gearlube", "map", "my axle.toml"])
+    app = typer.Typer()
+    app.command()(lambda: write_report(Report(study="map", title="Map"), tmp_path) and None)
+    assert CliRunner().invoke(app, []).exit_code == 0
+    assert "gearlube map &#39;my axle.toml&#39;" in (tmp_path / "report.html").read_text()
+    write_report(Report(study="map", title="Map"), tmp_path)
+    assert "my axle.toml" not in (tmp_path / "report.html").read_text()

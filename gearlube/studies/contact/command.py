@@ -13,7 +13,7 @@ from rich.table import Table
 from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import console
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
-from gearlube.cli.study_run import StudyRun, command_line, empty_table, study_run, tell_findings
+from gearlube.cli.study_run import StudyRun, empty_table, study_run, tell_findings
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -179,7 +179,6 @@ def contact(
                 folder=out,
                 jobs=jobs,
                 progress=progress,
-                command_line=command_line(),
             )
             if export:
                 progress(1.0, "writing flanks and gears")

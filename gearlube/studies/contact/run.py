@@ -98,7 +98,6 @@ def run_contact(
     folder: Path | None = None,
     jobs: int | None = None,
     progress: Progress = no_progress,
-    command_line: str = "",
 ) -> ContactResults:
     """Return the tooth contact of a hypoid gear file, without and under load, and its mesh table.
 
@@ -113,8 +112,6 @@ def run_contact(
         Number of processes; default: all processors.
     progress : callable, optional
         Called with the share of positions that is done [-] and a sentence on what runs.
-    command_line : str
-        Command that the report shows.
 
     Raises
     ------
@@ -142,14 +139,14 @@ def run_contact(
         progress(1.0, "writing report and figures")
         write_dataset(dataset, folder / "contact.nc")
         save_contact_figures(dataset, folder / "figures")
-        write_report(contact_report(dataset, folder / "figures", command_line), folder)
+        write_report(contact_report(dataset, folder / "figures"), folder)
     results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
         write_mesh_table(results.mesh_table, folder / f"{pair_stem(file.name)}.nc")
     return results
 
 
-def contact_report(contact: xr.Dataset, figures: Path, command_line: str = "") -> Report:
+def contact_report(contact: xr.Dataset, figures: Path) -> Report:
     """Return the report of a contact analysis; `figures` is the folder of its pictures."""
     attributes = contact.attrs
     torques = ", ".join(f"{one:g}" for one in contact["torque"].values)
@@ -171,11 +168,7 @@ def contact_report(contact: xr.Dataset, figures: Path, command_line: str = "") -
         tables=[_table(contact)],
         inputs=file_inputs(HypoidGearFile.model_validate_json(attributes["gear_file"])),
         limits=_LIMITS,
-        facts=[
-            (name, text)
-            for name, text in (("command", command_line), ("source", str(attributes["source"])))
-            if text
-        ],
+        facts=[("source", str(attributes["source"]))] if attributes["source"] else [],
         files=(f"{pair_stem(attributes['name'])}.nc", "contact.nc", "figures/"),
     )
 

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from gearlube.cli.example import print_example
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
-from gearlube.cli.study_run import command_line, empty_table, run_next, study_run, tell_findings
+from gearlube.cli.study_run import empty_table, run_next, study_run, tell_findings
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -56,9 +56,7 @@ def design(
     with study_run("design", out, overwrite=overwrite) as frame:
         file = BlankFile.given(blank)
         with frame.results() as progress:
-            results = run.run_design(
-                file, folder=out, jobs=jobs, progress=progress, command_line=command_line()
-            )
+            results = run.run_design(file, folder=out, jobs=jobs, progress=progress)
         frame.show(_table(file.name, asked_and_found(results.design)))
         gear = out / f"{pair_stem(results.design.file.name)}.toml"
         frame.written(gear.name, "design.nc", "figures")

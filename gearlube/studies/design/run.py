@@ -77,7 +77,6 @@ def run_design(
     folder: Path | None = None,
     jobs: int | None = 1,
     progress: Progress = no_progress,
-    command_line: str = "",
 ) -> DesignResults:
     """Return the hypoid or bevel pair designed from a blank file, with its unloaded contact.
 
@@ -90,8 +89,6 @@ def run_design(
         Processes for the elastic teeth, which the relief needs; None: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
-    command_line : str
-        Command that the report shows.
 
     Raises
     ------
@@ -112,7 +109,7 @@ def run_design(
     )
     if folder is not None:
         progress(0.98, "writing report and figures")
-        write_design(results, folder, command_line)
+        write_design(results, folder)
     return results
 
 
@@ -131,7 +128,7 @@ gear_file = "{name}.toml"      # its loaded contact is analysed once, some minut
 """
 
 
-def write_design(results: DesignResults, folder: Path, command_line: str = "") -> Path:
+def write_design(results: DesignResults, folder: Path) -> Path:
     """Write gear file, axle.toml, problem.toml, report, design.nc, figures/; return the first."""
     folder.mkdir(parents=True, exist_ok=True)
     file = results.design.file
@@ -141,12 +138,12 @@ def write_design(results: DesignResults, folder: Path, command_line: str = "") -
     write_text(problem_text(results.design), folder / PROBLEM)
     write_dataset(results.dataset, folder / "design.nc")
     save_pictures(DESIGN_CATALOGUE, folder / "figures", results.dataset)
-    report = design_report(results.dataset, folder / "figures", command_line)
+    report = design_report(results.dataset, folder / "figures")
     write_report(report, folder)
     return path
 
 
-def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> Report:
+def design_report(dataset: xr.Dataset, figures: Path) -> Report:
     """Return the report of a design; `figures` is the folder of its pictures."""
     attributes = dataset.attrs
     charts = {"transmission_error": _error_chart(dataset), "tooth_widths": _width_chart(dataset)}
@@ -161,7 +158,6 @@ def design_report(dataset: xr.Dataset, figures: Path, command_line: str = "") ->
         tables=[_contact(dataset), _teeth(dataset), _blank(dataset), _settings(dataset)],
         inputs=stored_inputs(attributes, "inputs"),
         limits=_LIMITS,
-        facts=[("command", command_line)] if command_line else [],
         files=(
             f"{pair_stem(attributes['name'])}.toml",
             "axle.toml",

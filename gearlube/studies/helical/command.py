@@ -23,7 +23,8 @@ from gearlube.cli.options import (
     TorqueOfFileOption,
 )
 from gearlube.cli.ranges import numbers_from
-from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
+from gearlube.cli.study_run import empty_table, study_run, tell_findings
+from gearlube.report.page import command_line
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import rpm_to_rads

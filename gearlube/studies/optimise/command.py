@@ -12,7 +12,7 @@ from rich.table import Table
 
 from gearlube.cli.example import print_example
 from gearlube.cli.options import JobsOption, OverwriteOption
-from gearlube.cli.study_run import command_line, empty_table, study_run, tell_findings
+from gearlube.cli.study_run import empty_table, study_run, tell_findings
 from gearlube_core.checks import check_within
 from gearlube_core.storage.file_names import pair_stem
 
@@ -87,7 +87,6 @@ def optimise(
                 folder=out,
                 jobs=jobs,
                 progress=progress,
-                command_line=command_line(),
             )
         found = results.optimised
         frame.show(_table(given.name, measure_rows(found)))

@@ -30,7 +30,7 @@ _LIMITS = (
 )
 
 
-def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
+def optimise_report(dataset: xr.Dataset) -> Report:
     """Return the report of an optimisation."""
     attributes, sizes = dataset.attrs, dataset.sizes
     kind = HypoidGearFile if attributes["kind"] == "hypoid" else HelicalGearFile
@@ -55,7 +55,6 @@ def optimise_report(dataset: xr.Dataset, command_line: str = "") -> Report:
             *file_inputs(better),
         ],
         limits=_LIMITS,
-        facts=[("command", command_line)] if command_line else [],
         files=(f"{pair_stem(attributes['name'])}.toml", "optimise.nc", "figures/"),
     )
 

@@ -44,7 +44,6 @@ def run_optimise(
     folder: Path | None = None,
     jobs: int | None = None,
     progress: Progress = no_progress,
-    command_line: str = "",
 ) -> OptimiseResults:
     """Return flanks with the smallest mesh orders under the limits of a problem file.
 
@@ -60,8 +59,6 @@ def run_optimise(
         Number of processes; default: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
-    command_line : str
-        Command that the report shows.
 
     Raises
     ------
@@ -82,11 +79,11 @@ def run_optimise(
     )
     if folder is not None:
         progress(1.0, "writing report and figures")
-        write_optimise(results, folder, command_line)
+        write_optimise(results, folder)
     return results
 
 
-def write_optimise(results: OptimiseResults, folder: Path, command_line: str = "") -> Path:
+def write_optimise(results: OptimiseResults, folder: Path) -> Path:
     """Write gear file, report.html, optimise.nc and figures/; return the gear file."""
     folder.mkdir(parents=True, exist_ok=True)
     found = results.optimised
@@ -100,5 +97,5 @@ def write_optimise(results: OptimiseResults, folder: Path, command_line: str = "
     write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
     write_dataset(results.dataset, folder / "optimise.nc")
     save_optimise_figures(results.dataset, folder / "figures")
-    write_report(optimise_report(results.dataset, command_line), folder)
+    write_report(optimise_report(results.dataset), folder)
     return path

@@ -11,7 +11,7 @@ import typer
 
 from gearlube.cli.example import print_example
 from gearlube.cli.options import AxleArgument, ExampleOption, OilOfAxleOption, OverwriteOption
-from gearlube.cli.study_run import command_line, study_run
+from gearlube.cli.study_run import study_run
 
 if TYPE_CHECKING:
     from drivetrain.axle_file.axle_file import CarAxle
@@ -183,7 +183,7 @@ def runup(
                     animations.append(moving)
             progress(1.0, "writing the report")
             write_text(summary_csv(datasets), out / "summary.csv")
-            report = write_runup_report(datasets, out, command_line(), animations)
+            report = write_runup_report(datasets, out, animations)
         run.written()
         tell_findings([one for dataset in datasets for one in findings(dataset)], report)
 

@@ -93,7 +93,6 @@ def _rounded(value: float) -> float:
 def write_runup_report(
     datasets: Sequence[xr.Dataset],
     folder: Path | str,
-    command_line: str = "",
     animations: Sequence[xr.Dataset] = (),
 ) -> Path:
     """Write report.html and figures/*.png of one ramp or more; return the path of the report.
@@ -108,7 +107,7 @@ def write_runup_report(
     folder = Path(folder)
     drawn = drawn_figures(datasets)
     save_figure_folder(drawn, folder / "figures")
-    return write_report(runup_report(datasets, drawn, command_line, animations), folder)
+    return write_report(runup_report(datasets, drawn, animations), folder)
 
 
 def report_of_one(dataset: xr.Dataset) -> Report:
@@ -133,7 +132,6 @@ def _name(dataset: xr.Dataset, name: str) -> str:
 def runup_report(
     datasets: Sequence[xr.Dataset],
     drawn: dict[str, Any],
-    command_line: str = "",
     animations: Sequence[xr.Dataset] = (),
 ) -> Report:
     """Return the report of ramps; `drawn` has every figure as a picture of matplotlib."""
@@ -152,7 +150,7 @@ def runup_report(
             *(["animation/"] if moving else []),
         ),
         inputs=stored_inputs(datasets[0].attrs, "inputs_given", "inputs_assumed"),
-        facts=_facts(datasets[0], command_line),
+        facts=_facts(datasets[0]),
     )
     for dataset in datasets:
         before = f"{dataset.attrs['ramp'].capitalize()}: " if several else ""
@@ -267,10 +265,9 @@ def _settings(dataset: xr.Dataset, before: str) -> list[Input]:
     return found
 
 
-def _facts(dataset: xr.Dataset, command_line: str) -> list[tuple[str, str]]:
+def _facts(dataset: xr.Dataset) -> list[tuple[str, str]]:
     attributes = dataset.attrs
     return [
-        ("command", command_line or "(run from Python)"),
         ("ramp by gearlube", str(attributes["gearlube_version"])),
         ("axle", f"{attributes['axle']} {attributes['axle_source']}".strip()),
         ("mesh table", str(attributes["mesh_table"])),

@@ -11,7 +11,7 @@ import typer
 from gearlube.cli.example import prints_example
 from gearlube.cli.options import OverwriteOption
 from gearlube.cli.ranges import two_numbers
-from gearlube.cli.study_run import command_line, study_run
+from gearlube.cli.study_run import study_run
 
 logger = logging.getLogger("gearlube")
 
@@ -107,7 +107,6 @@ def sound(
                 against=other or against,
                 transfer=transfer,
                 folder=out,
-                command_line=command_line(),
                 progress=progress,
             )
         for sentence in found.findings:

@@ -74,14 +74,12 @@ _TITLES = {
 _MOST_ROWS = 60
 
 
-def write_sound_report(
-    sound: Sound, drawn: dict[str, Any], folder: Path, command_line: str = ""
-) -> Path:
+def write_sound_report(sound: Sound, drawn: dict[str, Any], folder: Path) -> Path:
     """Write report.html into a folder and return its path; `drawn` has the figures."""
-    return write_report(sound_report(sound, drawn, command_line), folder)
+    return write_report(sound_report(sound, drawn), folder)
 
 
-def sound_report(sound: Sound, drawn: dict[str, Any], command_line: str = "") -> Report:
+def sound_report(sound: Sound, drawn: dict[str, Any]) -> Report:
     """Return the report of one sound or of two side by side."""
     datasets = [run.dataset for run in sound.runs]
     names = [str(one.attrs["name"]) for one in datasets]
@@ -96,10 +94,7 @@ def sound_report(sound: Sound, drawn: dict[str, Any], command_line: str = "") ->
         figures=_figures(datasets, drawn),
         inputs=_inputs(sound),
         limits=(*sound.limits, METHOD),
-        facts=(
-            ("command", command_line or "(run from Python)"),
-            ("metrics", str(datasets[0].attrs["standards"])),
-        ),
+        facts=(("metrics", str(datasets[0].attrs["standards"])),),
         files=(*(name for name in sound.files if "/" not in name), "figures/"),
     )
 
@@ -231,9 +226,7 @@ def _axis(dataset: xr.Dataset) -> Axis:
     return Axis(words, unit)
 
 
-def write_sound(
-    sound: Sound, settings: SoundSettings, folder: Path, command_line: str = ""
-) -> Sound:
+def write_sound(sound: Sound, settings: SoundSettings, folder: Path) -> Sound:
     """Write everything into a folder and return the sound with its files.
 
     sound.nc (and sound_b.nc), NAME_full_scale_X_Pa.wav, summary.csv, figures/, report.html.
@@ -257,7 +250,7 @@ def write_sound(
     for path in save_figure_folder(drawn, folder / "figures"):
         files[f"figures/{path.name}"] = path
     written = replace(sound, files={**files, table.name: table})
-    report = write_sound_report(written, drawn, folder, command_line)
+    report = write_sound_report(written, drawn, folder)
     return replace(written, files={**written.files, report.name: report})
 
 

@@ -50,7 +50,6 @@ def run_sound(
     transfer: Path | str | None = None,
     names: tuple[str, ...] = (),
     folder: Path | str | None = None,
-    command_line: str = "",
     progress: Progress = no_progress,
 ) -> Sound:
     """Return the sound of a run: its bearing forces, sent through a transfer path to the ear.
@@ -68,8 +67,6 @@ def run_sound(
         Names of the runs; default: their folders.
     folder : path, optional
         Folder for sound.nc, WAV files, summary.csv, figures/ and report.html.
-    command_line : str
-        Command that the report shows.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
 
@@ -123,7 +120,7 @@ def run_sound(
     )
     if folder is None:
         return sound
-    return write_sound(sound, settings, Path(folder), command_line)
+    return write_sound(sound, settings, Path(folder))
 
 
 def _told_apart(records: list[ForceRecord]) -> list[ForceRecord]:

@@ -20,7 +20,8 @@ from gearlube.cli.options import (
     OverwriteOption,
     given_cooling,
 )
-from gearlube.cli.study_run import command_line, study_run
+from gearlube.cli.study_run import study_run
+from gearlube.report.page import command_line
 
 logger = logging.getLogger("gearlube")
 

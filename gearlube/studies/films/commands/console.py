@@ -14,7 +14,8 @@ from rich.table import Table
 
 from gearlube.cli.exit_codes import console, exit_if_failed, exit_on_error
 from gearlube.cli.results_folder import results_folder
-from gearlube.cli.study_run import command_line, progress_on, tell_findings
+from gearlube.cli.study_run import progress_on, tell_findings
+from gearlube.report.page import command_line
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 
