@@ -12,7 +12,7 @@ import xarray as xr
 
 from gearlube.damage.summary import SUMMARY_HEAD, TOO_DEEP
 from gearlube.plotting.drawn_tooth import ToothWords
-from gearlube.report.numbers import number_text
+from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import (
     GOOD,
     NOTE,
@@ -96,34 +96,87 @@ def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = 
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
-    """Return the findings, the most important first."""
-    found = [
-        Finding(WARNING, f"{row[0]}: {row[5]}, {row[1]}.", f"By {row[6]}.")
-        for row in json.loads(dataset.attrs["summary"])
-        if row[5] in ("fails", TOO_DEEP) or row[5].startswith("high risk")
-    ]
+    """Return what the run says: whether it lasts, then all else."""
+    rows = json.loads(dataset.attrs["summary"])
+    bad = [row for row in rows if row[5] in ("fails", TOO_DEEP) or row[5].startswith("high risk")]
     outside = [f"Rating by the standard: {one}." for one in dataset.attrs["outside"].splitlines()]
     return [
-        *found,
+        _answer(dataset, rows, bad),
+        *(Finding(WARNING, f"{row[0]}: {row[5]}, {row[1]}.", f"By {row[6]}.") for row in bad),
         *_strength(dataset),
         *(Finding(NOTE, *words) for words in json.loads(dataset.attrs["notes"])),
         *_worst(dataset),
         *_worn(dataset),
         *_warnings(dataset),
+        *_not_given(dataset),
         *(Finding(WARNING, words) for words in outside),
     ]
 
 
+def _answer(
+    dataset: xr.Dataset, rows: Sequence[Sequence[str]], bad: Sequence[Sequence[str]]
+) -> Finding:
+    """Say whether it lasts, as far as there are limits for it."""
+    hot, film = float(dataset["contact_temperature"].max()), float(dataset["film_ratio"].min())
+    loads = (
+        f"Largest Hertz pressure {quantity_text(float(dataset['pressure'].max()), 'GPa')}, "
+        f"thinnest film {number_text(film)} of the roughness, hottest contact {hot:.0f} °C."
+    )
+    if bad:
+        words = ", ".join(dict.fromkeys(row[0] for row in bad))
+        return Finding(WARNING, f"It does not last: {words}.", loads)
+    judged = [row for row in rows if row[3]]
+    if not judged:
+        asked = "No mode of failure has a limit, so it is not known whether it lasts."
+        return Finding(NOTE, asked, f"{loads} A finding below says which data it takes.")
+    least = min(judged, key=lambda row: math.inf if row[3] == "∞" else float(row[3]))
+    return Finding(
+        GOOD,
+        f"It lasts by all {len(judged)} checks that have a limit; the least safety is {least[3]}: "
+        f"{least[0]}.",
+        f"By {least[6]}. The formulas are not certified. {loads}",
+    )
+
+
+def _not_given(dataset: xr.Dataset) -> list[Finding]:
+    """Return which modes of failure have no limit, and which data give one."""
+    of = dataset.attrs
+    lacking = (
+        (
+            not json.loads(of["torque_factors"]) and not of["withheld"],
+            "pitting and breakage (--contact-limit-mpa and --bending-limit-mpa; 1500 and 430 MPa "
+            "are an example of case-hardened steel of medium quality)",
+        ),
+        (
+            "permissible_film" not in of,
+            "micropitting (--micropitting-torque-nm, of the failure stage of the oil's C-GF test; "
+            "265.1 N·m is stage 10)",
+        ),
+        (
+            "depth" not in dataset,
+            "damage under the surface (--surface-hv, --core-hv and --case-depth-mm, or "
+            "--torsion-limit-mpa and --bending-fatigue-mpa)",
+        ),
+        (
+            "wear_map" not in dataset,
+            "wear (--wear-coefficient, of your own tests; for an order of size 5e-18 1/Pa, mild "
+            "wear of FZG gears in oil, a number from memory)",
+        ),
+    )
+    found = [words for holds, words in lacking if holds]
+    modes = ", ".join(one.partition(" (")[0] for one in found)
+    return (
+        [Finding(NOTE, f"Not given: data for {modes}.", f"Give {'; '.join(found)}.")]
+        if found
+        else []
+    )
+
+
 def _strength(dataset: xr.Dataset) -> list[Finding]:
     factors = json.loads(dataset.attrs["torque_factors"])
-    if not factors and dataset.attrs["withheld"]:
-        return [Finding(WARNING, f"No strength: {dataset.attrs['withheld']}.")]
     if not factors:
-        cure = (
-            "Give --contact-limit-mpa and --bending-limit-mpa; 1500 and 430 MPa are an example of "
-            "case-hardened steel of medium quality."
-        )
-        return [Finding(NOTE, "No strength: the material of the gears is not given.", cure)]
+        withheld = dataset.attrs["withheld"]
+        return [Finding(WARNING, f"No strength: {withheld}.")] if withheld else []
     each = {f"{mode}, {role}": pair[i] for mode, pair in factors.items()
             for i, role in enumerate(("pinion", "gear"))}  # fmt: skip
     mode = min(each, key=lambda one: each[one])
@@ -225,28 +278,14 @@ def _warnings(dataset: xr.Dataset) -> list[Finding]:
             "Film and friction go over into those of the formulas there.",
         ),
         (
-            math.isnan(least), NOTE, "No limit of micropitting: "
-            + ("the test gear is outside the model of solved films." if asked else
-               "the test of the oil is not given."),
-            "A limit by formulas does not hold for solved films. Use formulas for both." if asked
-            else "Give --micropitting-torque-nm, of the failure stage of the oil's C-GF test; "
-            "265.1 N·m is stage 10. The film of the test gear follows from the same film law.",
+            math.isnan(least) and asked, NOTE,
+            "No limit of micropitting: the test gear is outside the model of solved films.",
+            "A limit by formulas does not hold for solved films. Use formulas for both.",
         ),
         (
             below > 0.0, NOTE,
             f"The film is below the permissible one in {below:.2g} % of the time.",
             "It may micropit there. The permissible film is 1.4 times that of the test gear.",
-        ),
-        (
-            "depth" not in dataset, NOTE, "Nothing under the surface: hardness and fatigue limits "
-            "are not given.",
-            "Give --surface-hv, --core-hv and --case-depth-mm for flank fracture, or "
-            "--torsion-limit-mpa and --bending-fatigue-mpa for the number of Dang Van.",
-        ),
-        (
-            "wear_map" not in dataset, NOTE, "No wear: its coefficient is not given.",
-            "Give --wear-coefficient, of your own tests. For an order of size take 5e-18 1/Pa, "
-            "mild wear of FZG gears in oil, a number from memory.",
         ),
         (
             slow > 0, NOTE, f"Bins with slow surfaces, Peclet number below 5: {slow}.",

@@ -80,7 +80,7 @@ _SHOWN = {
         "studies.optimise.figures:OPTIMISE_CATALOGUE", "studies.optimise.report:optimise_report"
     ),
     "damage": _Shown("damage.figures:damage_figures", "damage.report:damage_report", True),
-    "drivetrain": _Shown("studies.drivetrain.report:power_figure"),
+    "drivetrain": _Shown("studies.drivetrain.figures:power_figure"),
     "train run-up": _Shown("studies.drivetrain.ramp:waterfall_figure"),
     "train map": _Shown("studies.drivetrain.losses:loss_figure"),
     "train cycle": _Shown("studies.drivetrain.cycle:cycle_figure"),

@@ -70,7 +70,8 @@ def panels_of(
     axes = figure.subplots(-(-count // 2), min(count, 2), squeeze=False).ravel()
     for empty in axes[count:]:
         empty.set_visible(False)
-    figure.suptitle(f"{what}: {results.attrs['title'].partition(',')[0]}", fontsize=11)
+    words = f"{what}: {results.attrs['title'].partition(',')[0]}"
+    figure.suptitle(fill(words, 40 * min(count, 2)), fontsize=11)
     return figure, list(axes[:count])
 
 

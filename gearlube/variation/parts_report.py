@@ -126,10 +126,15 @@ def save_parts(results: xr.Dataset, many: xr.Dataset, report: Report, folder: Pa
     """Write parts.nc and the figures parts, pays and check; return the report with them first."""
     write_compressed_dataset(many, folder / "parts.nc")
     save_pictures(_PICTURES, folder / "figures", results, many)
+    limited = bool(np.isfinite(many["limit"]).any())
+    own, of_points = findings(results, many), list(report.findings)
     return replace(
         report,
-        findings=[*findings(results, many), *report.findings],
-        figures=[*pictured(_PICTURES, folder / "figures"), *report.figures],
+        findings=[*own, *of_points] if limited else [*of_points, *own],
+        figures=[  # the parts have the distribution of all
+            *pictured(_PICTURES, folder / "figures"),
+            *(one for one in report.figures if one.name != "histograms"),
+        ],
         files=[*report.files, "parts.nc"],
     )
 
@@ -149,22 +154,29 @@ def findings(results: xr.Dataset, many: xr.Dataset) -> list[Finding]:
                     "needs no model.",
                 )
             )
-        pays = "; ".join(f"by {words}: {_largest(cell[one])}" for one, words in METHODS.items())
-        found.append(Finding(NOTE, f"The scatter of {name} is from, {pays}."))
+        (first, by), *others = METHODS.items()
+        rest = "; ".join(f"by {words}: {_largest(cell[one])}" for one, words in others)
+        found.append(
+            Finding(
+                NOTE,
+                f"The scatter of {name} comes from {_largest(cell[first])}.",
+                f"By {by}; {rest}.",
+            )
+        )
         checks = int(cell["quick"].notnull().sum())
         inside = round(float(cell["coverage"]) * checks)
         narrow = binom.cdf(inside, checks, 0.95) < _LIMIT
-        bias, error, rms = (
-            number_text(float(cell[one]), 2) for one in ("bias", "bias_error", "rms")
+        bias, error, rms, scatter = (
+            quantity_text(float(cell[one]), unit, 2)
+            for one in ("bias", "bias_error", "rms", "scatter")
         )
         found.append(
             Finding(
                 WARNING if narrow else GOOD,
-                f"Quick model of {name}: on {checks} full runs that it has not seen its bias is "
-                f"{bias} with a standard error of {error}, its rms error {rms} beside a scatter of "
-                f"{quantity_text(float(cell['scatter']), unit, 2)}; {inside} are within its bars "
-                "of 95 %.",
-                "The bars are too narrow. Take more samples." if narrow else "",
+                f"The quick model of {name} has an rms error of {rms} on {checks} full runs that "
+                f"it has not seen, of {scatter} scatter; {inside} are within its 95 % bars.",
+                f"Its bias is {bias}, with a standard error of {error}."
+                + (" The bars are too narrow. Take more samples." if narrow else ""),
             )
         )
     return found

@@ -2,45 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from gearlube.report.charts import Axis, Line, add_line, bar_chart, panels
-from gearlube.report.numbers import number_text, quantity_text
+from gearlube.report.numbers import number_text, quantity_text, unit_words
 from gearlube.report.parts import (
     GOOD,
     NOTE,
     WARNING,
-    Cell,
-    Column,
     Figure,
     Finding,
     Input,
     Number,
     Report,
-    Table,
 )
 from gearlube.variation.figures import line_axis
 from gearlube.variation.store import gridded
-from gearlube.variation.summary import cells, inputs_of, quantities_of, varies
+from gearlube.variation.summary import inputs_of, varies
+from gearlube.variation.tables import MOST, Shown, conditions, shown_quantities, tables, units_of
 
 _STRONG = 0.5  # rank correlation from which a quantity is said to follow an input
 _NAMED = 2
-_EVERYDAY = {"m": (1e6, "µm"), "1": (1.0, ""), "degC": (1.0, "°C"), "K": (1.0, "K")}
-_MOST = 6  # series of a chart, and charts of ranks
-_FEW = 24  # rows of a table that is shown at once
-_MOST_ROWS = 200
-_STATISTICS = (
-    ("mean", "mean"),
-    ("deviation", "standard deviation"),
-    ("low", "least"),
-    ("p2.5", "2.5 %"),
-    ("p50", "median"),
-    ("p97.5", "97.5 %"),
-    ("high", "largest"),
-)
 _LIMITS = (
     "Each point holds what its study holds; the limits of that study apply.",
     "A rank correlation says that a quantity follows an input, not by how much; below about 50 "
@@ -49,38 +34,20 @@ _LIMITS = (
 )
 
 
-class Shown(NamedTuple):
-    """A quantity that the reports show: name, meaning, and the unit they show it in."""
-
-    name: str
-    meaning: str
-    factor: float
-    unit: str
-
-
-def shown_quantities(results: xr.Dataset) -> list[Shown]:
-    """Return the quantities that figures and reports show."""
-    found = []
-    for name in results.attrs["shown"]:
-        about = results[name].attrs
-        unit = str(about["units"])
-        factor, everyday = _EVERYDAY.get(unit, (1.0, unit.replace("N m", "N·m")))
-        found.append(Shown(str(name), str(about["long_name"]), factor, everyday))
-    return found
-
-
 def findings(results: xr.Dataset, summary: xr.Dataset) -> list[Finding]:
     """Return the findings of a variation, the most important first."""
     failed, points = int(summary["failed"].sum()), results.sizes["point"]
-    found = []
+    lacking = []
     if failed:
-        found.append(
-            Finding(WARNING, f"{failed} of {points} points failed.", "points.csv says why.")
-        )
+        lacking = [Finding(WARNING, f"{failed} of {points} points failed.", "points.csv says why.")]
     if failed == points:
-        return found
-    found += [_range(summary, one) for one in shown_quantities(results)]
-    return [*found, *_limits(summary), *_outside(results)]
+        return lacking
+    ranges = [
+        _range(summary, one)
+        for one in shown_quantities(results)
+        if np.isfinite(results[one.name]).any()
+    ]
+    return [*_limits(summary), *ranges, *lacking, *_outside(results)]
 
 
 def numbers(results: xr.Dataset, summary: xr.Dataset) -> list[Number]:
@@ -183,32 +150,20 @@ def _outside(results: xr.Dataset) -> list[Finding]:
     share = 100.0 * float(np.mean(outside[np.isfinite(outside)] > 0.0))
     if share == 0.0:
         return [Finding(GOOD, "No point left the range of a formula or table.")]
+    beyond = results.isel(point=np.flatnonzero(outside > 0.0))
+    box = [
+        f"{key} {number_text(beyond[key].values.min())} to {number_text(beyond[key].values.max())}"
+        for key in units_of(results)
+        if beyond[key].dtype.kind in "fiu"
+    ]
+    where = f" All lie within {', '.join(box)}; elsewhere results are usable." if box else ""
     return [
         Finding(
             WARNING,
-            f"{share:.3g} % of the points left the range of a formula or table.",
-            "What is computed there is extrapolated; points.csv says which.",
+            f"{share:.3g} % of the points are extrapolated beyond a formula or table.{where}",
+            "points.csv says which.",
         )
     ]
-
-
-def conditions(summary: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
-    """Return words and statistics of each combination of the axes."""
-    return [
-        (
-            ", ".join(
-                f"{name} {value:g}" if isinstance(value, float | np.floating) else f"{name} {value}"
-                for name, value in values.items()
-            ),
-            cell,
-        )
-        for values, cell in cells(summary)
-    ]
-
-
-def units_of(results: xr.Dataset) -> dict[str, str]:
-    """Return the unit of each varied parameter."""
-    return {one["key"]: str(one["unit"]) for one in inputs_of(results)}
 
 
 def variation_report(results: xr.Dataset, summary: xr.Dataset) -> Report:
@@ -222,7 +177,7 @@ def variation_report(results: xr.Dataset, summary: xr.Dataset) -> Report:
         findings=findings(results, summary),
         numbers=numbers(results, summary),
         figures=_figures(results, summary),
-        tables=_tables(results, summary),
+        tables=tables(results, summary),
         inputs=_inputs(results),
         limits=_LIMITS,
         files=("results.zarr", "points.csv", "summary.csv", "figures/"),
@@ -257,7 +212,7 @@ def _figures(results: xr.Dataset, summary: xr.Dataset) -> list[Figure]:
                 chart=histogram_chart(results, summary, drawn),
             )
         )
-    for one in shown[:_MOST]:
+    for one in shown[:MOST]:
         ranks = summary["rank_correlation"].sel(quantity=one.name)
         mean = ranks.mean([d for d in ranks.dims if d != "input"]).values
         over = ", mean over the axes" if ranks.size > mean.size else ""
@@ -288,10 +243,10 @@ def _varies(results: xr.Dataset, one: Shown) -> bool:
 def line_panels(results: xr.Dataset, summary: xr.Dataset, shown: list[Shown]) -> Any:
     """Return the shown quantities over the longest axis, a panel for each."""
     along = line_axis(summary)
-    x_axis = Axis(along, units_of(results)[along])
-    axes = [Axis(one.name.replace("_", " "), one.unit) for one in shown]
-    chart = panels([one.meaning for one in shown], x_axis, axes, height=280)
-    first = conditions(summary.isel({along: 0}))[:_MOST]
+    x_axis = Axis(along, unit_words(units_of(results)[along]))
+    axes = [Axis(one.meaning, one.unit) for one in shown]
+    chart = panels([""] * len(shown), x_axis, axes, height=280)
+    first = conditions(summary.isel({along: 0}))[:MOST]
     for row, (one, axis) in enumerate(zip(shown, axes, strict=True), 1):
         values = one.factor * summary["statistics"].sel(quantity=one.name)
         for number, (words, cell) in enumerate(first):
@@ -319,14 +274,12 @@ def histogram_chart(results: xr.Dataset, summary: xr.Dataset, shown: list[Shown]
     chart = make_subplots(
         rows=len(shown),
         cols=1,
-        subplot_titles=[one.meaning for one in shown],
         vertical_spacing=0.36 / max(len(shown), 2),
     )
     chart.update_layout(template=None, height=300 * len(shown) + 80, barmode="overlay")
-    chart.update_annotations(x=0.0, xanchor="left", font_size=13)
     over = gridded(results)[[one.name for one in shown]].load()
     for row, one in enumerate(shown, 1):
-        for number, (words, cell) in enumerate(conditions(summary)[:_MOST]):
+        for number, (words, cell) in enumerate(conditions(summary)[:MOST]):
             others = [d for d in over[one.name].dims if d in cell["failed"].coords]
             at = over[one.name].sel({d: cell[d].values.item() for d in others})
             values = one.factor * at.values[np.isfinite(at.values)]
@@ -341,43 +294,10 @@ def histogram_chart(results: xr.Dataset, summary: xr.Dataset, shown: list[Shown]
                 row=row,
                 col=1,
             )
-        axis = Axis(one.name.replace("_", " "), one.unit)
+        axis = Axis(one.meaning, one.unit)
         chart.update_xaxes(title_text=axis.label, row=row, col=1)
         chart.update_yaxes(title_text="points", row=row, col=1)
     return chart
-
-
-def _tables(results: xr.Dataset, summary: xr.Dataset) -> list[Table]:
-    """Return the statistics of each shown quantity, and of all others folded."""
-    shown = {one.name for one in shown_quantities(results)}
-    others = [name for name in quantities_of(results) if name not in shown]
-    sampled = bool(summary.sizes["input"])
-    found = [_statistics_table(results, summary, name, sampled) for name in [*shown, *others]]
-    ranked = sorted(found, key=lambda one: one.folded)
-    return [one for one in ranked if one.rows][:_MOST]
-
-
-def _statistics_table(results: xr.Dataset, summary: xr.Dataset, name: str, sampled: bool) -> Table:
-    statistics = _STATISTICS if sampled else (("mean", "value"),)
-    unit = str(summary["unit"].sel(quantity=name).values)
-    unit = "" if unit == "1" else unit.replace("N m", "N·m")
-    axes = [str(axis) for axis in summary["failed"].dims]
-    rows: list[list[Cell]] = []
-    for _, cell in conditions(summary)[:_MOST_ROWS]:
-        values = cell["statistics"].sel(quantity=name)
-        where = [cell[axis].values.item() for axis in axes]
-        rows.append([*where, *(float(values.sel(statistic=key)) for key, _ in statistics)])
-    shown = name in results.attrs["shown"]
-    return Table(
-        title=f"{results[name].attrs['long_name']}",
-        columns=[
-            *(Column(axis, units_of(results)[axis], 4) for axis in axes),
-            *(Column(words, unit, 4) for _, words in statistics),
-        ],
-        rows=rows,
-        caption="summary.csv has all quantities." if shown else "",
-        folded=not shown or len(rows) > _FEW,
-    )
 
 
 def _inputs(results: xr.Dataset) -> list[Input]:

@@ -17,8 +17,9 @@ import gearlube as gl
 from drivetrain.train.train_file import TrainFile
 from gearlube.command import app
 from gearlube.studies.drivetrain.clashes import clashes
+from gearlube.studies.drivetrain.figures import _mode_figure, losses, transmission_errors
 from gearlube.studies.drivetrain.layout import layout
-from gearlube.studies.drivetrain.report import _mode_figure, findings, losses, transmission_errors
+from gearlube.studies.drivetrain.report import findings
 from gearlube.studies.drivetrain.run import FILE
 from gearlube.studies.drivetrain.space_view import space_view
 from tests.helpers.small_trains import BRAKE, FIRST, SECOND, STIFFNESS, WITH_BRAKE
@@ -63,7 +64,7 @@ def test_the_report_says_where_the_power_goes(rotors: Path) -> None:
     assert any(re.match(r"The drivetrain loses 31\d W at the file's speed", one) for one in said), (
         said
     )
-    assert any(one.startswith("The energy balance closes") for one in said)
+    assert not any("unaccounted" in one for one in said)
     assert not any(one.startswith("The speed of") for one in said)  # the brake takes 0.03 %
     page = (rotors / "report.html").read_text("utf-8")
     assert "Natural frequencies, and which bodies move" in page

@@ -172,7 +172,7 @@ def test_a_key_number_has_its_band_and_an_empty_column_is_not_shown():
     table = Table(title="Losses", columns=columns, rows=[["a", 5.0, None], ["b", 7.0, None]])
     lost = Number("power lost", 706.0, "W", band=(457.0, 1179.0))
     shown = report_html(Report(study="map", title="Losses", numbers=[lost], tables=[table]))
-    assert "706 <small>W</small> <small>(457 to 1179, 95 %)</small>" in shown
+    assert "706 <small>W</small><br><small>457 to 1179 (95 %)</small>" in shown
     assert ">lost<small>W</small>" in shown
     assert ">limit<" not in shown
 

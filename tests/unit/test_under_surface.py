@@ -152,7 +152,7 @@ def test_without_hardness_and_limits_nothing_is_said_of_the_depth(run):
     found = run()
     assert "depth" not in found.dims
     assert not any("fracture" in str(name) or "fatigue" in str(name) for name in found.data_vars)
-    said = next(one for one in findings(found) if "Nothing under the surface" in one.headline)
+    said = next(one for one in findings(found) if "damage under the surface" in one.headline)
     for option in ("--surface-hv", "--core-hv", "--case-depth-mm", "--torsion-limit-mpa"):
         assert option in said.detail
 

@@ -82,10 +82,15 @@ def test_a_sampled_variation_has_its_known_key_numbers_findings_and_table():
     ).assign_coords(limited=["loss"], limit=("limited", [100.0]))
     left = results.assign(range_exceeded=("point", np.repeat([0.0, 2.0, np.nan], [30, 8, 2])))
     said = [
-        (WARNING, "points failed", "3, 40"),
-        spread,
         (WARNING, "of the points have a loss above", "25 %, 100 W"),
-        (WARNING, "left the range", "21.1 %"),  # 8 of 38
+        spread,
+        (WARNING, "points failed", "3, 40"),
+        # 8 of 38: 11 to 18 N in the warmer oil
+        (
+            WARNING,
+            "are extrapolated … All lie within oil … preload … elsewhere",
+            "21.1 %, 80.0, 80.0, 11.0, 18.0",
+        ),
     ]
     assert_findings(findings(left, limited), said)
     none = left.assign(range_exceeded=0.0 * left["range_exceeded"])
@@ -100,13 +105,13 @@ def test_a_sampled_variation_has_its_known_key_numbers_findings_and_table():
     assert [one.x.tolist() for one in histograms.data] == [
         [factor * k for k in range(1, 21)] for factor in (10.0, 5.0)
     ]
-    assert histograms.layout.xaxis.title.text == "loss [W]"
+    assert histograms.layout.xaxis.title.text == "power lost in all [W]"
     assert histograms.layout.yaxis.title.text == "points"
     assert list(ranks.data[0].x) == [1.0]
     deviation = np.sqrt((20.0**2 - 1.0) / 12.0)  # of 1 to 20
     words = ("mean", "standard deviation", "least", "2.5 %", "median", "97.5 %", "largest")
     table = [
-        ["oil [degC]", *(f"{one} [W]" for one in words)],
+        ["oil [°C]", *(f"{one} [W]" for one in words)],
         *([degc, *(f * one for one in (10.5, deviation, 1.0, 1.475, 10.5, 19.525, 20.0))]
           for degc, f in ((40.0, 10.0), (80.0, 5.0))),
     ]  # fmt: skip

@@ -111,7 +111,7 @@ def _largest(dataset: xr.Dataset) -> Finding:
         f"{quantity_text(float(worst['torque']), 'N·m')}, at {words_of(worst)}.",
         f"By {_name(first)}. "
         + (f"Parts of the torque: {words}. " if words else "")
-        + " ".join(error_sentences(dataset)),
+        + next(one for one in error_sentences(dataset) if str(first["law"].values) in one),
     )
 
 
@@ -252,7 +252,7 @@ def part_chart(dataset: xr.Dataset) -> Any:
     names = [str(one) for one in first["part"].values[found.values]]
     for row, place in enumerate(places, 1):
         torque = first["part_torque"].sel(place).sel(part=names).transpose("part", along)
-        look: Any = {"colours": COLOURS[::-1], "row": row, "col": 1}
+        look: Any = {"colours": COLOURS[5::-1], "row": row, "col": 1}
         add_stack(chart, names, x, torque.values, axis, _TORQUE, **look)
     return chart
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from gearlube.report.numbers import number_text, quantity_text, unit_words
+from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import ASSUMED, GOOD, NOTE, WARNING, Finding, Number
 from gearlube_core.hypoid_contact.pair import FlankPair
 from gearlube_core.hypoid_contact.refusal import pair_warnings
@@ -311,14 +311,11 @@ def _chosen(dataset: xr.Dataset) -> list[Finding]:
     chosen = [one for one in notes if one[3] == ASSUMED]
     if not chosen:
         return [Finding(GOOD, "All fields of the blank were given.")]
-    listed = "; ".join(
-        f"{field} {value} {unit_words(unit)}".strip() for field, value, unit, *_ in chosen
-    )
     return [
         Finding(
             NOTE,
             f"{len(chosen)} of {len(notes)} fields were chosen, not given.",
-            f"Give the values that you know better: {listed}.",
+            "Give the values that you know better: the table of inputs has all of them.",
         )
     ]
 

@@ -132,11 +132,12 @@ def drivetrain(
         from gearlube.report.inputs import file_inputs
         from gearlube.studies.drivetrain.clashes import clashes
         from gearlube.studies.drivetrain.cycle import cycle_losses, plan_cycle
+        from gearlube.studies.drivetrain.figures import losses, save_figures
         from gearlube.studies.drivetrain.layout import layout
         from gearlube.studies.drivetrain.losses import map_losses
         from gearlube.studies.drivetrain.operation import Operation
         from gearlube.studies.drivetrain.ramp import plan_ramp, run_ramp
-        from gearlube.studies.drivetrain.report import losses, report, save_figures
+        from gearlube.studies.drivetrain.report import report
         from gearlube.studies.drivetrain.run import run_drivetrain
         from gearlube.studies.drivetrain.space_view import space_view
         from gearlube_core.progress import part_of

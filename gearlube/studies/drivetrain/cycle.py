@@ -309,14 +309,10 @@ def of_cycle(dataset: xr.Dataset | None) -> list[Finding]:
         words = "of the energy is lost between points of the map that have no equilibrium."
         cure = "Their losses are those of the points beside them, see loss_map.csv."
         found.append(Finding(WARNING, f"{100.0 * filled:.2g} % {words}", cure))
-    if "imbalance" in dataset.attrs:
-        missing = float(dataset.attrs["imbalance"])
-        found.append(
-            Finding(
-                GOOD if missing < _BALANCED else WARNING,
-                f"Shaft, losses, road and brakes balance within {100.0 * missing:.1g} %.",
-            )
-        )
+    missing = float(dataset.attrs.get("imbalance", 0.0))
+    if missing >= _BALANCED:
+        words = f"Shaft, losses, road and brakes balance only within {100.0 * missing:.1g} %."
+        found.append(Finding(WARNING, words))
     return found + [Finding(WARNING, one) for one in dataset.attrs["trace_notes"].splitlines()]
 
 

@@ -297,11 +297,7 @@ def of_map(dataset: xr.Dataset | None) -> list[Finding]:
     """Return the findings of a map, the most important first."""
     if dataset is None:
         return []
-    failed = dataset["failure"].values[dataset["failure"].values != ""]
     found = []
-    if failed.size:
-        words = f"{failed.size} of {dataset['failure'].size} points of the map have no equilibrium."
-        found.append(Finding(WARNING, words, str(failed[0])))
     share = dataset["efficiency"]
     if np.isfinite(share).any():
         best = {str(name): int(one) for name, one in share.argmax(...).items()}
@@ -313,4 +309,8 @@ def of_map(dataset: xr.Dataset | None) -> list[Finding]:
                 f"{float(there['speed']):.4g} rpm and {float(there['torque']):.4g} N·m.",
             )
         )
+    failed = dataset["failure"].values[dataset["failure"].values != ""]
+    if failed.size:
+        words = f"{failed.size} of {dataset['failure'].size} points of the map have no equilibrium."
+        found.append(Finding(WARNING, words, str(failed[0])))
     return found

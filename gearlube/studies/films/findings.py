@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from gearlube.report.numbers import number_text, quantity_text
+from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.films.film_formulas import RATIO_FILMS, film_ratio_finding, film_ratios
 from gearlube_core.ehl.grid_error import LARGE_ERROR
@@ -41,16 +42,9 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     Examples
     --------
     >>> findings(xr.load_dataset("gearlube_ehl_line/line.nc"))[0].headline  # doctest: +SKIP
-    'The film converged.'
+    'The smallest film is 0.190 µm, the central one 0.211 µm; ...'
     """
-    found = [
-        _converged(dataset),
-        *_thin(dataset),
-        *_thick_formulas(dataset),
-        *_error("grid", largest_errors(dataset), "coarser grids", _MORE_NODES),
-    ]
-    domain = largest_errors(dataset, "domain_")
-    found += _error("domain", domain, "a domain twice as wide", _WIDER_DOMAIN)
+    errors = largest_errors(dataset)
     if dataset.attrs["contact"] in STEADY:
         of_films = _steady(dataset)
     elif dataset.attrs["contact"] == "hypoid":
@@ -58,28 +52,31 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     else:
         of_films = _march(dataset)
     smallest, *others = of_films
-    return [*found, smallest, film_ratio_finding(dataset), *others]
+    known = errors.get("smallest film", errors.get("films", math.nan))
+    if math.isfinite(known):
+        words = f"{smallest.headline.removesuffix('.')}; the error of the grid is about"
+        smallest = replace(smallest, headline=f"{words} {100.0 * known:.2g} %.")
+    domain = largest_errors(dataset, "domain_")
+    return [
+        smallest,
+        *_not_converged(dataset),
+        *_thin(dataset),
+        *_thick_formulas(dataset),
+        *_error("grid", errors, "coarser grids", _MORE_NODES),
+        *_error("domain", domain, "a domain twice as wide", _WIDER_DOMAIN),
+        film_ratio_finding(dataset),
+        *others,
+    ]
 
 
-def _converged(dataset: xr.Dataset) -> Finding:
+def _not_converged(dataset: xr.Dataset) -> list[Finding]:
     of = dataset.attrs
-    outcome = str(of["outcome"])
-    if of["contact"] in STEADY:
-        if of["converged"]:
-            return Finding(
-                GOOD,
-                "The film converged.",
-                f"Unbalanced flow {number_text(of['residual'], 2)} of the flow, load error "
-                f"{number_text(of['load_error'], 2)}.",
-            )
-        return Finding(WARNING, "The film did NOT converge: do not use its numbers.", outcome)
     if of["converged"]:
-        return Finding(GOOD, outcome)
-    return Finding(
-        WARNING,
-        f"{of['failures']} films did NOT converge: they are marked in the figures.",
-        outcome,
-    )
+        return []
+    words = "The film did NOT converge: do not use its numbers."
+    if of["contact"] not in STEADY:
+        words = f"{of['failures']} films did NOT converge: they are marked in the figures."
+    return [Finding(WARNING, words, str(of["outcome"]))]
 
 
 def _signed(phase: float) -> str:
@@ -295,15 +292,19 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
     of, errors = dataset.attrs, largest_errors(dataset)
     worst = 100.0 * max(errors.values(), default=math.nan)
     if of["contact"] in STEADY:
-        ratios = {one.quantity: one.ratio for one in reversed(formula_ratios(dataset))}
+        friction = abs(of["friction_coefficient"])
         return [
             Number("smallest film", 1e6 * of["minimum_film"], "µm"),
             Number("central film", 1e6 * of["central_film"], "µm"),
             Number("largest pressure", 1e-9 * of["pressure_max"], "GPa"),
             *_ratio_numbers(dataset),
-            Number("coefficient of friction", abs(of["friction_coefficient"])),
+            Number("coefficient of friction", friction if friction > 0.0 else math.nan),
             Number("largest estimated error", worst, "%", 2),
-            Number("first formula over central film", ratios.get("central film", math.nan)),
+            *(
+                Number(f"{one.source} over central film", one.ratio)
+                for one in formula_ratios(dataset)
+                if one.quantity == "central film"
+            ),
         ]
     prefix = "steady_" if of["contact"] == "hypoid" else ""
     found = [

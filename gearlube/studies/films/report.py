@@ -76,7 +76,7 @@ _WORDS = {
 
 def film_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> Report:
     """Return the report of a film; `figures` is the folder of its pictures."""
-    of = dataset.attrs
+    of, said = dataset.attrs, findings(dataset)
     kind = str(of["contact"])
     catalogue = drawn_figures(dataset)
     facts = (("command", command_line), ("source", str(of["source"])), ("outcome", of["outcome"]))
@@ -84,8 +84,9 @@ def film_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> R
         study=f"ehl {kind}",
         title=f"Film of {of['name']}",
         subtitle=f"Lubricated {_KINDS[kind]}.",
-        findings=[*remark_findings(of), *findings(dataset)],
+        findings=[*said[:1], *remark_findings(of), *said[1:]],
         numbers=numbers(dataset),
+        main_figures=[name for name in catalogue if name != "residuals"],
         figures=pictured(catalogue, figures, _main_charts(dataset)),
         tables=_tables(dataset),
         inputs=film_inputs(dataset),

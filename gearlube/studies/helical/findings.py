@@ -326,7 +326,7 @@ def _film(film: xr.Dataset) -> list[Finding]:
         Finding(
             film_ratio_level(ratio),
             f"The smallest film ratio λ is {ratio:.2f}, the mean coefficient of friction "
-            f"{of['operating_mean_coefficient']:.4f}, and the mesh loses "
+            f"{of['operating_mean_coefficient']:.4f}, and sliding loses "
             f"{quantity_text(of['operating_power_loss'], 'W')}.",
             f"Film over a composite roughness of {1e6 * of['roughness_rms']:.3g} µm, at "
             f"{of['oil_temperature'] - ZERO_CELSIUS:.0f} °C. {film_ratio_words(ratio)}",

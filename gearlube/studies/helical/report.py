@@ -349,10 +349,16 @@ def numbers(datasets: Datasets) -> list[Number]:
             nan if film is None else float(film.attrs["operating_mean_coefficient"]),
         ),
         Number("dynamic transmission error in operation", own[0] if own else nan, "µm"),
-        Number("mesh order of it in operation", own.order if own else nan, digits=1),
+        Number(
+            "number of the largest mesh order, in operation", own.order if own else nan, digits=1
+        ),
         Number("largest dynamic transmission error in the sweep", peak[0] if peak else nan, "µm"),
-        Number("mesh order of the largest", peak.order if peak else nan, digits=1),
-        Number("speed of the largest", peak.speed if peak else nan, "rpm", 4),
+        Number(
+            "number of the largest mesh order, in the sweep", peak.order if peak else nan, digits=1
+        ),
+        Number(
+            "speed of the largest mesh order, in the sweep", peak.speed if peak else nan, "rpm", 4
+        ),
         Number("mean mesh stiffness", nan if at is None else 1e-6 * float(at["K"].mean()), "N/µm"),
         Number(
             "loaded transmission error, peak to peak",
