@@ -98,10 +98,11 @@ def damage_report(dataset: xr.Dataset, figures: Path, inputs: Sequence[Input] = 
 def findings(dataset: xr.Dataset) -> list[Finding]:
     """Return what the run says: whether it lasts, then all else."""
     rows = json.loads(dataset.attrs["summary"])
-    bad = [row for row in rows if row[5] in ("fails", TOO_DEEP) or row[5].startswith("high risk")]
-    outside = [f"Rating by the standard: {one}." for one in dataset.attrs["outside"].splitlines()]
+    failed = [row for row in rows if row[5] == "fails" or row[5].startswith("high risk")]
+    bad = [*failed, *(row for row in rows if row[5] == TOO_DEEP)]
+    outside = "; ".join(dataset.attrs["outside"].splitlines())
     return [
-        _answer(dataset, rows, bad),
+        _answer(dataset, rows, failed),
         *(Finding(WARNING, f"{row[0]}: {row[5]}, {row[1]}.", f"By {row[6]}.") for row in bad),
         *_strength(dataset),
         *(Finding(NOTE, *words) for words in json.loads(dataset.attrs["notes"])),
@@ -109,12 +110,12 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
         *_worn(dataset),
         *_warnings(dataset),
         *_not_given(dataset),
-        *(Finding(WARNING, words) for words in outside),
+        *([Finding(WARNING, f"Ratings are outside the standard: {outside}.")] if outside else []),
     ]
 
 
 def _answer(
-    dataset: xr.Dataset, rows: Sequence[Sequence[str]], bad: Sequence[Sequence[str]]
+    dataset: xr.Dataset, rows: Sequence[Sequence[str]], failed: Sequence[Sequence[str]]
 ) -> Finding:
     """Say whether it lasts, as far as there are limits for it."""
     hot, film = float(dataset["contact_temperature"].max()), float(dataset["film_ratio"].min())
@@ -122,9 +123,9 @@ def _answer(
         f"Largest Hertz pressure {quantity_text(float(dataset['pressure'].max()), 'GPa')}, "
         f"thinnest film {number_text(film)} of the roughness, hottest contact {hot:.0f} °C."
     )
-    if bad:
-        words = ", ".join(dict.fromkeys(row[0] for row in bad))
-        return Finding(WARNING, f"It does not last: {words}.", loads)
+    if failed:
+        words = "; ".join(row[0] + (f" (safety {row[3]})" if row[3] else "") for row in failed)
+        return Finding(WARNING, f"It does not last by {words}.", loads)
     judged = [row for row in rows if row[3]]
     if not judged:
         asked = "No mode of failure has a limit, so it is not known whether it lasts."
@@ -166,7 +167,7 @@ def _not_given(dataset: xr.Dataset) -> list[Finding]:
     found = [words for holds, words in lacking if holds]
     modes = ", ".join(one.partition(" (")[0] for one in found)
     return (
-        [Finding(NOTE, f"Not given: data for {modes}.", f"Give {'; '.join(found)}.")]
+        [Finding(NOTE, f"Not given: data for {modes}.", f"Options for them: {'; '.join(found)}.")]
         if found
         else []
     )
@@ -306,5 +307,6 @@ def _numbers(dataset: xr.Dataset) -> list[Number]:
             deepest = float(dataset["wear_map"][:, i].max())
             found.append(Number(f"wear depth, {role}", deepest, "µm"))
         for mode, pair in json.loads(dataset.attrs["torque_factors"]).items():
-            found.append(Number(f"torque factor, {mode}, {role}", float(pair[i])))
+            factor = float(pair[i]) if math.isfinite(pair[i]) else math.nan  # without such loads
+            found.append(Number(f"torque factor, {mode}, {role}", factor))
     return found

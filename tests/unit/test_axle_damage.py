@@ -1,6 +1,7 @@
 """Damage of an axle over bins: sums, factors, verdicts, tables of bins."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -119,6 +120,7 @@ def test_without_a_coefficient_no_wear_is_shown(car):
     ]
     assert len(told) == 1
     assert "--wear-coefficient" in told[0].detail
+    assert findings(found)[0].headline.startswith("No mode of failure has a limit")
 
 
 def test_wear_too_deep_for_a_new_flank_is_a_warning(run):
@@ -127,6 +129,7 @@ def test_wear_too_deep_for_a_new_flank_is_a_warning(run):
     assert depth > 2.0  # um
     warned = [one.headline for one in findings(found) if one.level == "warning"]
     assert any("wear, pinion: too deep for the rate of a new flank" in one for one in warned)
+    assert "wear" not in findings(found)[0].headline  # the rate ends there, not the gear
 
 
 def test_a_life_that_fails_is_a_warning(run):
@@ -135,6 +138,7 @@ def test_a_life_that_fails_is_a_warning(run):
     assert verdicts["pitting, drive, pinion"] == "fails"
     warned = [one.headline for one in findings(found) if one.level == "warning"]
     assert any("pitting, drive, pinion: fails" in one for one in warned)
+    assert re.match(r"It does not last by pitting, drive, pinion \(safety 0\.\d+\)", warned[0])
     assert any("beyond the torques of the mesh table" in one for one in warned)
 
 

@@ -93,8 +93,10 @@ def inside_pressure(dataset: xr.Dataset) -> float:
 
 
 def _highest(values: Array, top: float) -> str:
-    """Return "up to 0.87 GPa"; where an edge presses, what the flank inside of it has."""
+    """Return "up to 0.87 GPa"; without the number where it has none, at a sharp edge."""
     highest = float(np.nanmax(values, initial=0.0))
+    if highest > 1e-9 * EDGE_PRESSURE:
+        return "a sharp edge presses"
     return f"up to {highest:.2f} GPa" + (" at an edge" if highest > top else "")
 
 
