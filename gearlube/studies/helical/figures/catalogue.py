@@ -47,7 +47,6 @@ from gearlube.studies.helical.figures.load_sharing import (
 )
 from gearlube.studies.helical.figures.speed_sweep import (
     campbell,
-    friction_speed_maps,
     instability,
     order_cuts,
     separation,
@@ -141,17 +140,6 @@ def _amplitude(response: xr.Dataset, name: str, case: str, scale: float) -> Any:
     return scale * base.values * speed
 
 
-def composites(response: xr.Dataset) -> Any:
-    """Return the composite displacements. Compare [he_2007 fig. 8]."""
-    rows = (
-        ("delta_x", r"$\delta_x$", 1e6, "µm"),
-        ("delta_y", r"$\delta_y$", 1e6, "µm"),
-        ("delta_z", r"$\delta_z$", 1e6, "µm"),
-        ("delta_z_rate", r"$\dot\delta_z$", 1e6, "µm/s"),
-    )
-    return _histories(response, rows, "Composite displacements")
-
-
 def bearing_forces(response: xr.Dataset) -> Any:
     """Return the forces of the pinion's bearings. Compare [he_2007 fig. 7], in lbf."""
     rows = (
@@ -242,22 +230,10 @@ HELICAL_CATALOGUE: dict[str, Picture] = {
         "Each order by itself, for several coefficients of friction and with the oil film.",
         "sweep",
     ),
-    "friction_speed_maps": Picture(
-        friction_speed_maps,
-        "Bearing forces over friction and speed",
-        "Root mean square of all mesh orders. A vertical ridge is a resonance.",
-        "sweep",
-    ),
     "displacements": Picture(
         displacements,
         "Motions at the operating point",
         f"Over two mesh periods. {_MOTIONS}",
-        "response",
-    ),
-    "composites": Picture(
-        composites,
-        "Relative motions at the operating point",
-        "delta_z is the dynamic transmission error, delta_x and delta_y are the tilts of the mesh.",
         "response",
     ),
     "bearing_forces": Picture(

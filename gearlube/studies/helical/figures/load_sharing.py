@@ -108,47 +108,28 @@ def _one_pair(ax: Any, contact: xr.Dataset) -> None:
 def load_sharing(contact: xr.Dataset) -> Any:
     """Return shares of the torque, against length shares, and the highest pressures of a pair."""
     with house_style():
-        figure = new_figure(10.0, 7.0)
-        axes = figure.subplots(2, 2, sharex="col")
-        torques = spread(contact["torque"].values)
+        figure = new_figure(7.2, 7.0)
+        top, bottom = figure.subplots(2, 1, sharex=True)
         highest: list[Array] = []
-        for row, torque in enumerate(torques):
+        for row, torque in enumerate(spread(contact["torque"].values)):
             part = contact.sel(torque=torque)
-            label = f"{torque:.4g} N·m"
-            phase, share = followed(part, "share")
-            axes[0, 0].plot(phase, share, color=SERIES[row], label=label)
+            look = {"color": SERIES[row], "label": f"{torque:.4g} N·m"}
+            top.plot(*followed(part, "share"), **look)
             phase, pressure = followed(part, "pressure_max")
-            pressure = np.where(pressure > 0.0, 1e-9 * pressure, np.nan)
-            axes[1, 0].plot(phase, pressure, color=SERIES[row], label=label)
-            highest.append(pressure)
-            x, y = closed(part["phase"].values, 100.0 * part["corner_share"].values)
-            axes[0, 1].plot(x, y, color=SERIES[row], label=label)
-            load = part["line_load"].max(("line", "station")).values
-            x, y = closed(part["phase"].values, 1e-3 * load)
-            axes[1, 1].plot(x, y, color=SERIES[row], label=label)
+            highest.append(np.where(pressure > 0.0, 1e-9 * pressure, np.nan))
+            bottom.plot(phase, highest[-1], **look)
         phase, share = followed(contact, "length_share")
-        axes[0, 0].plot(phase, share, color="black", ls="--", lw=1.2, label="share of length")
-        axes[0, 0].set(ylabel="share of the torque", ylim=(0.0, None), title="one pair")
-        axes[1, 0].set(
+        top.plot(phase, share, color="black", ls="--", lw=1.2, label="share of length")
+        top.set(ylabel="share of the torque", ylim=(0.0, None))
+        bottom.set(
             ylabel="highest pressure [GPa]",
             ylim=(0.0, None),
             xlabel="mesh periods since it enters the plane of contact",
             xlim=(-0.5, contact["constant_line"].values[-1] + 1.0),
         )
-        _cut_edge_pressures(axes[1, 0], followed(contact, "length_share")[0], highest)
-        axes[0, 1].set(
-            ylabel="outside the plane\nof contact [% of torque]",
-            ylim=(0.0, None),
-            title="all pairs",
-        )
-        axes[1, 1].set(
-            ylabel="highest line load [N/mm]",
-            ylim=(0.0, None),
-            xlabel="time [mesh periods]",
-            xlim=(0.0, 2.0),
-        )
-        figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=5, loc="outside lower center")
-        figure.suptitle(f"Load sharing: {contact.attrs['name']}", fontsize=11.5)
+        _cut_edge_pressures(bottom, phase, highest)
+        figure.legend(*top.get_legend_handles_labels(), ncols=5, loc="outside lower center")
+        figure.suptitle(f"Load sharing of one pair: {contact.attrs['name']}", fontsize=11.5)
     return figure
 
 

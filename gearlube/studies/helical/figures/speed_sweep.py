@@ -1,4 +1,4 @@
-"""Mesh orders over speed, levels over friction, parametric instability and tooth separation."""
+"""Mesh orders over speed, parametric instability and tooth separation."""
 
 from __future__ import annotations
 
@@ -33,7 +33,6 @@ _ON_ALL = "#909090"  # seen on the light and the dark colours of a map
 _COLOURS = (BLUE, VERMILLION)
 _TICKS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05)
 _RANGE = 60.0  # dB
-_MAP_RANGE = 40.0  # dB of the map of sums of orders, which have no deep valleys
 _FORCES = (("F_xp", "$F_{x}$"), ("F_yp", "$F_{y}$"), ("F_zp", "$F_{z}$"))
 _CUTS = (
     ("delta_z_rate", r"$\dot\delta_z$ [mm/s]", 1e3),
@@ -285,45 +284,4 @@ def order_cuts(sweep: xr.Dataset) -> Any:
             + "; dotted: the order meets a natural frequency",
             fontsize=10.5,
         )
-    return figure
-
-
-def friction_speed_maps(sweep: xr.Dataset) -> Any:
-    """Return the rms level of the vibrating bearing forces over friction and speed."""
-    speed, mu = sweep["speed"].values / RPM, sweep["mu"].values
-    with house_style():
-        figure = new_figure(11.0, 4.4)
-        axes = figure.subplots(1, len(_FORCES), sharex=True, sharey=True)
-        for ax, (name, symbol) in zip(axes, _FORCES, strict=True):
-            power = 0.5 * (sweep[f"{name}_harmonic"] ** 2).sum("harmonic", skipna=False)
-            ax.set_title(f"{symbol} of the pinion's bearings")
-            ax.set_xlabel("pinion speed [rpm]")
-            ax.grid(False)
-            if not np.nanmax(power) > NOTHING**2:
-                note_no_vibration(ax)
-                continue
-            level = 10.0 * np.log10(np.maximum(power.transpose("mu", "speed").values, NOTHING**2))
-            top = 5.0 * np.ceil(0.2 * np.nanmax(level))
-            mesh = ax.pcolormesh(
-                cell_edges(speed),
-                cell_edges(mu),
-                level,
-                cmap="viridis",
-                vmin=top - _MAP_RANGE,
-                vmax=top,
-            )
-            # without friction a force may be zero: no contours towards minus infinity
-            felt = np.nanmax(level, axis=1) > top - _MAP_RANGE
-            lines = ax.contour(
-                speed, mu[felt], level[felt], levels=np.arange(top - _MAP_RANGE, top, 10.0),
-                colors="white", linewidths=0.7,
-            ) if min(level[felt].shape) > 1 else None  # fmt: skip
-            if lines is not None:
-                for text in ax.clabel(lines, fmt="%.0f", fontsize=7.5):
-                    outlined(text)
-            bar = figure.colorbar(mesh, ax=ax, location="bottom", shrink=0.9)
-            bar.set_label("rms level of orders 1 to 15 [dB re 1 N]")
-        axes[0].set_ylabel("coefficient of friction µ [-]")
-        axes[0].set_ylim(mu[0], max(mu[-1], mu[0] + 1e-3))
-        figure.suptitle(_heading(sweep, "Vibrating bearing forces"), fontsize=10.5)
     return figure
