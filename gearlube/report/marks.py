@@ -103,6 +103,8 @@ def _map(mesh: Any) -> dict[str, Any]:
     places, norm, bar = mesh.get_coordinates(), mesh.norm, mesh.colorbar
     if type(norm).__name__ != "Normalize" or np.ptp(places[:, 0, 0]) > 0.0:
         raise PictureOnly
+    if not np.array_equal(mesh.cmap.get_over(), mesh.cmap(mesh.cmap.N - 1)):
+        raise PictureOnly  # a colour of its own beyond the scale, which a chart has not
     values = np.ma.filled(mesh.get_array().astype(float), np.nan)
     label = "" if bar is None else plain(bar.ax.get_ylabel() or bar.ax.get_xlabel())
     shades = np.linspace(0.0, 1.0, _COLOURS)

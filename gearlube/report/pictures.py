@@ -43,15 +43,27 @@ def save_pictures(catalogue: Mapping[str, Picture], folder: Path, *given: Any) -
     Those that can be a chart of plotly lie there as JSON too.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    files = []
-    for name, one in catalogue.items():
-        path = folder / f"{name}.png"
-        figure = one.draw(*given)
-        write_figure(figure, path)
-        files.append(path)
-        if (chart := redrawn(figure)) is not None:
-            write_text(chart.to_json(), path.with_suffix(".json"))
-    return files
+    paths = [folder / f"{name}.png" for name in catalogue]
+    for one, path in zip(catalogue.values(), paths, strict=True):
+        save_picture(one.draw(*given), path)
+    return paths
+
+
+def save_picture(figure: Any, path: Path) -> None:
+    """Write a figure of matplotlib as PNG, and beside it as JSON where it can be a chart."""
+    write_figure(figure, path)
+    if (chart := redrawn(figure)) is not None:
+        write_text(chart.to_json(), path.with_suffix(".json"))
+
+
+def kept_figure(name: str, title: str, caption: str, path: Path, chart: Any = None) -> Figure:
+    """Return a figure that `save_picture` wrote: as `chart`, else as its own chart, else as PNG."""
+    from plotly.io import read_json
+
+    if chart is None and path.with_suffix(".json").is_file():
+        chart = read_json(path.with_suffix(".json"))
+    picture = path.read_bytes() if chart is None else None
+    return Figure(name=name, title=title, caption=caption, chart=chart, picture=picture)
 
 
 def shown(name: str, title: str, caption: str, figure: Any, chart: Any = None) -> Figure:
@@ -71,24 +83,9 @@ def pictured(
 
     `charts` has charts of plotly that are shown in their place, by name.
     """
-    from plotly.io import read_json
-
     charts = charts or {}
-    found = []
-    for name, one in catalogue.items():
-        path = folder / f"{name}.png"
-        chart = charts.get(name)
-        if chart is None and path.with_suffix(".json").is_file():
-            chart = read_json(path.with_suffix(".json"))
-        if chart is None and not path.is_file():
-            continue
-        found.append(
-            Figure(
-                name=name,
-                title=one.title,
-                caption=one.caption,
-                chart=chart,
-                picture=path.read_bytes() if chart is None else None,
-            )
-        )
-    return found
+    return [
+        kept_figure(name, one.title, one.caption, folder / f"{name}.png", charts.get(name))
+        for name, one in catalogue.items()
+        if name in charts or (folder / f"{name}.png").is_file()
+    ]

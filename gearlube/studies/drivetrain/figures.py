@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import SERIES, house_style, new_figure
-from gearlube.report.charts import Axis, Line, add_line, bar_chart, panels
+from gearlube.report.pictures import save_picture
 from gearlube.studies.drivetrain.cycle import CYCLE_FIGURE
 from gearlube.studies.drivetrain.layout import layout, layout_figure
 from gearlube.studies.drivetrain.losses import loss_figure
@@ -22,9 +22,7 @@ from gearlube.studies.drivetrain.orders import (
 )
 from gearlube.studies.drivetrain.ramp import waterfall_figure
 from gearlube.studies.drivetrain.vibration import response_figure
-from gearlube_core.arrays import Array
 from gearlube_core.dynamics.train.model import Train
-from gearlube_core.storage.atomic_file import write_figure
 
 _DIGITS = 9  # behind the point, of a loss in W
 _LEAST_SHARE = 1e-3  # of the losses, that is drawn
@@ -59,42 +57,24 @@ def transmission_errors(dataset: xr.Dataset) -> dict[str, float]:
     }
 
 
-def _motion(dataset: xr.Dataset) -> dict[str, tuple[Array, Array]]:
-    """Return time [ms] and transmission error [µm] of each mesh in the last part of a run."""
-    end = dataset.isel(time=slice(-max(2, int(_SHOWN * dataset.sizes["time"])), None))
-    time = 1e3 * end["time"].values
-    return {mesh: (time, 1e6 * end[mesh + _DTE].values) for mesh in transmission_errors(dataset)}
-
-
 def _motion_figure(dataset: xr.Dataset) -> Any:
-    found = _motion(dataset)
+    end = dataset.isel(time=slice(-max(2, int(_SHOWN * dataset.sizes["time"])), None))
+    meshes = list(transmission_errors(dataset))
     with house_style():
-        figure = new_figure(7.2, 0.6 + 2.0 * len(found))
-        axes = figure.subplots(len(found), 1, squeeze=False, sharex=True).ravel()
-        for ax, (mesh, values) in zip(axes, found.items(), strict=True):
-            ax.plot(*values)
+        figure = new_figure(7.2, 0.6 + 2.0 * len(meshes))
+        axes = figure.subplots(len(meshes), 1, squeeze=False, sharex=True).ravel()
+        for ax, mesh in zip(axes, meshes, strict=True):
+            ax.plot(1e3 * end["time"], 1e6 * end[mesh + _DTE])
             ax.set(title=mesh, ylabel="transmission error [µm]")
         axes[-1].set_xlabel("time [ms]")
     return figure
 
 
-def _motion_chart(dataset: xr.Dataset) -> Any:
-    found, x, y = _motion(dataset), Axis("time", "ms"), Axis("transmission error", "µm")
-    chart = panels(list(found), x, [y] * len(found), height=240)
-    for row, (mesh, (time, error)) in enumerate(found.items(), 1):
-        add_line(chart, Line(name=mesh, x=time, y=error), 0, x, y, row=row, col=1)
-    return chart.update_layout(showlegend=False)
-
-
-def _shown_losses(dataset: xr.Dataset) -> dict[str, float]:
-    found = losses(dataset)
-    least = _LEAST_SHARE * sum(found.values())
-    return {name.replace("_", " "): value for name, value in found.items() if value > least}
-
-
 def power_figure(dataset: xr.Dataset) -> Any:
     """Return the power lost by kind, mean of the second half of a run."""
-    found = _shown_losses(dataset)
+    found = losses(dataset)
+    least = _LEAST_SHARE * sum(found.values())
+    found = {name.replace("_", " "): one for name, one in found.items() if one > least}
     with house_style():
         figure = new_figure(7.2, 1.2 + 0.35 * len(found))
         ax = figure.subplots()
@@ -102,11 +82,6 @@ def power_figure(dataset: xr.Dataset) -> Any:
         ax.invert_yaxis()
         ax.set(xlabel="mean power lost [W]")
     return figure
-
-
-def _loss_chart(dataset: xr.Dataset) -> Any:
-    found = _shown_losses(dataset)
-    return bar_chart(list(found), list(found.values()), Axis("mean power lost", "W"))
 
 
 def _mode_figure(dataset: xr.Dataset) -> Any:
@@ -131,7 +106,6 @@ def _mode_figure(dataset: xr.Dataset) -> Any:
     return figure
 
 
-CHARTS = {"transmission_error": _motion_chart, "losses": _loss_chart}
 FIGURES: dict[str, tuple[Callable[[Any], Any], str, str]] = {
     "layout": (
         layout_figure,
@@ -226,10 +200,10 @@ def save_figures(
         if name == "orders" and not float(dataset["order_force"].max()) > LEAST:
             continue
         files[name] = folder / f"{name}.png"
-        write_figure(draw(found if name == "layout" else dataset), files[name])
+        save_picture(draw(found if name == "layout" else dataset), files[name])
     for name, (draw, *_) in OF_STUDIES.items():
         study = {"loss_map": loss_map, "cycle": cycle}.get(name, runup)
         if study is not None:
             files[name] = folder / f"{name}.png"
-            write_figure(draw(study), files[name])
+            save_picture(draw(study), files[name])
     return files

@@ -22,9 +22,9 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
+from gearlube.report.pictures import kept_figure
 from gearlube.studies.drivetrain.cycle import cycle_numbers, cycle_tables, of_cycle
 from gearlube.studies.drivetrain.figures import (
-    CHARTS,
     FIGURES,
     OF_STUDIES,
     losses,
@@ -184,13 +184,7 @@ def report(
         figures=[
             *views,
             *(
-                Figure(
-                    name=name,
-                    title=title,
-                    caption=words,
-                    chart=CHARTS[name](dataset) if name in CHARTS else None,
-                    picture=figures[name].read_bytes(),
-                )
+                kept_figure(name, title, words, figures[name])
                 for name, (_, title, words) in (FIGURES | OF_STUDIES).items()
                 if name in figures
             ),

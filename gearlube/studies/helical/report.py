@@ -14,7 +14,7 @@ from gearlube.report.parts import ASSUMED, GIVEN, Cell, Column, Figure, Input, N
 from gearlube.report.pictures import pictured
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
 from gearlube.studies.helical.figures.layout import distinct
-from gearlube.studies.helical.figures.load_sharing import followed, spread
+from gearlube.studies.helical.figures.load_sharing import spread
 from gearlube.studies.helical.findings import (
     ORDERS,
     Datasets,
@@ -111,24 +111,6 @@ def _separation_chart(separation: xr.Dataset) -> Any:
     return chart
 
 
-def _sharing_chart(contact: xr.Dataset) -> Any:
-    """Return share of the torque and highest pressure of a tooth pair from entry to exit."""
-    x = Axis("mesh periods since the pair enters the plane of contact")
-    y = Axis("share of the torque", "%"), Axis("highest pressure", "GPa")
-    chart = panels(["load of one pair", "pressure of one pair"], x, y)
-    for number, torque in enumerate(spread(contact["torque"].values)):
-        part = contact.sel(torque=torque)
-        phase, share = followed(part, "share")
-        pressure = 1e-9 * followed(part, "pressure_max")[1]
-        pressed = (pressure > 0.0) & (pressure < 1e-9 * EDGE_PRESSURE)
-        for row, values in enumerate((100.0 * share, np.where(pressed, pressure, np.nan)), 1):
-            line = Line(name=f"{torque:.4g} N·m", x=phase, y=values)
-            add_line(chart, line, number, x, y[row - 1], row=row, col=1, showlegend=row == 1)
-    chart.update_xaxes(range=[-0.5, float(contact["constant_line"][-1]) + 1.0])
-    chart.update_yaxes(rangemode="tozero")
-    return chart
-
-
 def _loss_chart(losses: xr.Dataset) -> Any:
     """Return lost power and efficiency over speed, a line for each torque; one has its band."""
     y = Axis("power lost", "W"), Axis("efficiency of the teeth", "%")
@@ -168,7 +150,6 @@ def _loss_chart(losses: xr.Dataset) -> Any:
 
 _CHARTS = {
     "losses": ("losses", _loss_chart),
-    "load_sharing": ("contact", _sharing_chart),
     "harris_map": ("contact", _harris_chart),
     "separation": ("separation", _separation_chart),
 }

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREY, VERMILLION, house_style, new_figure
-from gearlube.report.pictures import Picture
+from gearlube.report.pictures import Picture, save_picture
 from gearlube.studies.films.figures.contacts import (
     across_limits,
     helical_along,
@@ -35,7 +35,6 @@ from gearlube.studies.films.figures.parts import (
     legend_of_both,
     two_scales,
 )
-from gearlube_core.storage.atomic_file import write_figure
 
 _THICK = 2.0  # films over the central one that have contours
 _SHARES = (0.05, 0.15, 0.35, 0.65, 0.85, 0.95)  # of the loaded length
@@ -274,7 +273,7 @@ def save_film_figures(dataset: xr.Dataset, directory: Path, prefix: str = "") ->
     files = []
     for name, one in drawn_figures(dataset).items():
         path = directory / f"{prefix}{name}.png"
-        write_figure(one.draw(dataset), path)
+        save_picture(one.draw(dataset), path)
         files.append(path)
     return files
 

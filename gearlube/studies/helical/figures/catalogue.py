@@ -11,7 +11,7 @@ import xarray as xr
 
 from gearlube.plotting.style import MARKERS, SERIES, house_style, new_figure
 from gearlube.report.numbers import number_text
-from gearlube.report.pictures import Picture
+from gearlube.report.pictures import Picture, save_picture
 from gearlube.studies.helical.figures.friction import (
     film_on_lines,
     film_over_mesh,
@@ -200,8 +200,7 @@ HELICAL_CATALOGUE: dict[str, Picture] = {
     "load_sharing": Picture(
         load_sharing,
         "Load sharing and highest pressure",
-        "One tooth pair from entry to exit. Pressures of sharp edges are left out, because they "
-        "have no finite value.",
+        "One tooth pair from entry to exit. Pressures beyond the axis come from sharp edges.",
         "contact",
     ),
     "harris_map": Picture(
@@ -301,7 +300,7 @@ def save_helical_figures(datasets: Mapping[str, xr.Dataset], directory: Path) ->
     for name, one in HELICAL_CATALOGUE.items():
         if one.needs in datasets:
             path = directory / f"{name}.png"
-            write_figure(one.draw(datasets[one.needs]), path)
+            save_picture(one.draw(datasets[one.needs]), path)
             files.append(path)
     if "geometry" in datasets:
         files += save_geometry_figures([datasets["geometry"]], directory / "geometry")
