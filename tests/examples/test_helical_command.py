@@ -17,6 +17,7 @@ from gearlube.plotting.words import mark_edge_pressure
 from gearlube.report.stored import read_report
 from gearlube.studies.helical import run as helical_run
 from gearlube.studies.helical import stages, sweep_grid
+from gearlube.studies.helical.figures import catalogue
 from gearlube.studies.helical.figures.catalogue import HELICAL_CATALOGUE
 from gearlube.studies.helical.run import run_helical
 from gearlube.studies.helical.settings import RPM, HelicalSettings
@@ -61,7 +62,7 @@ def small(monkeypatch):
         real(self, **given, stability_columns=4, stability_rows=2, separation_speeds=0)
 
     monkeypatch.setattr(HelicalSettings, "__init__", init)
-    monkeypatch.setattr(helical_run, "save_helical_figures", lambda *_: [])
+    monkeypatch.setattr(catalogue, "save_helical_figures", lambda *_: [])
     return (
         "--parts",
         "dynamics",
@@ -359,7 +360,7 @@ def test_the_pair_vibrates_on_the_stiffness_of_its_loaded_contact(
         study.mesh = named_line_mesh("he_2007")
 
     monkeypatch.setattr(HelicalSettings, "__init__", init)
-    monkeypatch.setattr(helical_run, "save_helical_figures", lambda *_: [])
+    monkeypatch.setattr(catalogue, "save_helical_figures", lambda *_: [])
     monkeypatch.setattr(stages, "_contact", contact)
     few = ("--parts", "dynamics", "--mu", 0.1, "--speeds-rpm", 1000, "--jobs", 1)
     result = run(*few, *options, "--friction", "constant", "--out", tmp_path)
