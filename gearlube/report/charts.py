@@ -83,8 +83,9 @@ def empty_chart(x: Axis, y: Axis, height: int = 420) -> Any:
 
 def name_axes(figure: Any, x: Axis, y: Axis, **place: int) -> None:
     """Name the axes of a chart, or of its panel row=, col=."""
-    figure.update_xaxes(title_text=x.label, type="log" if x.log else "linear", **place)
-    figure.update_yaxes(title_text=y.label, type="log" if y.log else "linear", **place)
+    for update, axis in ((figure.update_xaxes, x), (figure.update_yaxes, y)):
+        scale = {"type": "log", "dtick": "D2"} if axis.log else {"type": "linear"}
+        update(title_text=axis.label, **scale, **place)
 
 
 def line_chart(lines: Sequence[Line], x: Axis, y: Axis, height: int = 420) -> Any:

@@ -13,6 +13,7 @@ from gearlube_core.arrays import Array
 PX = 4.0 / 3.0  # of a point
 GREY = "#808080"
 _COLOURS = 64  # of a scale
+_CELLS = 200_000  # of a map; more are a picture, or the page grows by megabytes
 _DARK = 0.35  # grey below it is drawn in a grey that is seen on white and on black
 _SYMBOLS = {
     "s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamond", "d": "diamond",
@@ -39,7 +40,7 @@ def line_look(line: Any) -> dict[str, Any]:
     dashes = [f"{max(width, 1.0) * one:.1f}px" for one in line._unscaled_dash_pattern[1] or ()]
     symbol = _SYMBOLS.get(line.get_marker(), "circle")
     ink, face = colour(line.get_color()), colour(line.get_markerfacecolor())
-    edge = colour(line.get_markeredgecolor())
+    edge, every = colour(line.get_markeredgecolor()), line.get_markevery()
     hollow = face == "#ffffff" or str(line.get_markerfacecolor()).lower() == "none"
     return {
         "mode": "+".join(["lines"] * solid + ["markers"] * marked) or "none",
@@ -47,6 +48,7 @@ def line_look(line: Any) -> dict[str, Any]:
         "marker": {
             "symbol": symbol + "-open" * (hollow and not symbol.endswith("-open")),
             "size": PX * line.get_markersize(),
+            "maxdisplayed": len(line.get_xdata()) // every if isinstance(every, int) else 0,
             "color": edge if hollow else face,
             "line": {"width": 1.4 if hollow or "thin" in symbol else 0.0, "color": edge},
         },
@@ -101,7 +103,9 @@ def joined(parts: Iterable[Array]) -> dict[str, Any]:
 
 def _map(mesh: Any) -> dict[str, Any]:
     places, norm, bar = mesh.get_coordinates(), mesh.norm, mesh.colorbar
-    if type(norm).__name__ != "Normalize" or np.ptp(places[:, 0, 0]) > 0.0:
+    if mesh.get_array().size > _CELLS or type(norm).__name__ != "Normalize":
+        raise PictureOnly
+    if np.ptp(places[:, 0, 0]) > 0.0:
         raise PictureOnly
     if not np.array_equal(mesh.cmap.get_over(), mesh.cmap(mesh.cmap.N - 1)):
         raise PictureOnly  # a colour of its own beyond the scale, which a chart has not

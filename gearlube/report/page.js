@@ -18,7 +18,7 @@
   document.head.append(code);
 
   const PRINTED = 700, LOWER = 0.82, HIGHEST = 880;  // width of a page [px]; two figures fit on it
-  const PHONE = 640, PANEL = 250, HIGH = 420;  // px; HIGH: with names beside it
+  const PHONE = 640, PANEL = 250, HIGH = 420, KEY = 18;  // px; HIGH: with names beside it
   const axis = (rule) => ({
     gridcolor: rule, zerolinecolor: rule, linecolor: rule, ticks: "outside", tickcolor: rule,
     automargin: true, exponentformat: "power", title: {standoff: 8},
@@ -42,13 +42,15 @@
     toImageButtonOptions: {scale: 2},
     displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false,
   };
-  const stacked = (plot, layout) => {  // on a phone panels lie one below the other
+  const stacked = (plot, layout, data) => {  // on a phone panels lie one below the other
     if (!layout.meta?.places || innerWidth > PHONE) return layout;
     const beside = (one) => one.xref.endsWith("domain") && one.x >= 1 && one.xanchor === "left";
     const annotations = (layout.annotations || []).map(
       (one) => beside(one) ? {...one, font: {...one.font, size: 9}} : one);
     const margin = {...layout.margin, r: Math.max(12, 0.75 * (layout.margin?.r || 0))};
-    const own = {...layout, annotations, margin};
+    const names = data.filter((one) => one.name && one.showlegend !== false).length;
+    const own = {...layout, annotations, margin, height: layout.height + KEY * names};
+    plot.style.height = `${own.height}px`;
     const {columns, places} = layout.meta;
     if (columns === 1) return own;
     const step = 1 / (places.length - 0.36);
@@ -59,7 +61,7 @@
       own[`xaxis${name}`] = {...layout[`xaxis${name}`], domain: [0, 1]};
       own[`yaxis${name}`] = {...layout[`yaxis${name}`], domain: [Math.max(top - 0.64 * step, 0), top]};
     });
-    own.height = (annotations.some(beside) ? HIGH : PANEL) * places.length + 100;
+    own.height = (annotations.some(beside) ? HIGH : PANEL) * places.length + KEY * names;
     plot.style.height = `${own.height}px`;
     return own;
   };
@@ -70,7 +72,7 @@
   const draw = (plot, own) => {
     drawn.add(plot);
     const {data, layout, frames} = report.charts[plot.dataset.figure];
-    const whole = {...stacked(plot, layout), template: look(), ...own};
+    const whole = {...stacked(plot, layout, data), template: look(), ...own};
     const shown = innerWidth > PHONE || !layout.meta?.places ? data : data.map(scaleBelow);
     return Plotly.newPlot(plot, {data: shown, layout: whole, config, frames: frames || []});
   };
@@ -104,7 +106,7 @@
       Object.assign(plot.style, {width: `${PRINTED}px`, height: `${height}px`});
       const print = {template: LIGHT, width: PRINTED, height};
       if (drawn.has(plot)) Plotly.relayout(plot, print);
-      else draw(plot, print);
+      else draw(plot, print).catch(() => {});  // folded again before it was whole
     });
   });
   addEventListener("afterprint", () => {
@@ -112,6 +114,11 @@
     plots.forEach((plot) => {
       const height = heights.get(plot);
       Object.assign(plot.style, {width: "", height: `${height}px`});
+      if (plot.closest("details:not([open])")) {
+        Plotly.purge(plot);
+        drawn.delete(plot);
+        return;
+      }
       Plotly.relayout(plot, {template: look(), width: null, height, autosize: true});
     });
   });

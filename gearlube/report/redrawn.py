@@ -48,7 +48,8 @@ def redrawn(figure: Any) -> Any:
     """
     import plotly.graph_objects as go
 
-    axes = [ax for ax in figure.axes if not hasattr(ax, "_colorbar") and ax.axison]
+    axes = [ax for ax in figure.axes if not hasattr(ax, "_colorbar") and ax.get_visible()]
+    axes = [ax for ax in axes if ax.axison and (ax.has_data() or len(_twins(ax)) == 1)]
     chart = go.Figure(layout={"template": None, "height": int(_INCH * figure.get_figheight()) + 60})
     try:
         _lay_out(chart, axes)
@@ -79,11 +80,11 @@ def redrawn(figure: Any) -> Any:
 
 def _lay_out(chart: Any, axes: Sequence[Any]) -> None:
     """Place and name the axes."""
-    if any(ax.get_subplotspec() is None for ax in axes):
+    if not axes or any(ax.get_subplotspec() is None for ax in axes):
         raise PictureOnly
     specs = [ax.get_subplotspec().get_topmost_subplotspec() for ax in axes]
     for ax, spec in zip(axes, specs, strict=True):
-        twins = len(ax._twinned_axes.get_siblings(ax)) > 1
+        twins = len([one for one in _twins(ax) if one in axes]) > 1
         scales = {ax.get_xscale(), ax.get_yscale()}
         if ax.name != "rectilinear" or twins or not scales <= {"linear", "log"}:
             raise PictureOnly
@@ -103,7 +104,8 @@ def _lay_out(chart: Any, axes: Sequence[Any]) -> None:
         rows, cols = spec.rowspan, spec.colspan
         below = 0.0 if spec.is_last_row() else gap
         first = axes[next(i for i, s in enumerate(specs) if s.rowspan.start == rows.start)]
-        label = ax.get_ylabel() or first.get_ylabel() * (len(first.get_ylabel()) <= _LETTERS)
+        of_row = first.get_ylabel() or ax.get_figure().get_supylabel()
+        label = ax.get_ylabel() or (of_row if len(of_row) <= _LONG else "")
         shown = ax.xaxis.get_tick_params().get("labelbottom", True)
         chart.layout[f"xaxis{name}"] = {
             **_axis(ax.xaxis, ax.get_xlim(), ax.get_xlabel(), _LONG),
@@ -127,6 +129,10 @@ def _lay_out(chart: Any, axes: Sequence[Any]) -> None:
     }
 
 
+def _twins(ax: Any) -> list[Any]:
+    return list(ax._twinned_axes.get_siblings(ax))
+
+
 def _axis(axis: Any, limits: tuple[float, float], label: str, letters: int) -> dict[str, Any]:
     from matplotlib.ticker import FixedLocator, LogFormatter, ScalarFormatter
 
@@ -143,8 +149,8 @@ def _axis(axis: Any, limits: tuple[float, float], label: str, letters: int) -> d
         ticks = [one for one in axis.get_majorticklocs() if min(limits) <= one <= max(limits)]
         words = axis.get_major_formatter().format_ticks(ticks)
         found |= {"tickvals": ticks, "ticktext": [plain(one) for one in words]}
-    elif log and np.ptp(ends) > _DECADES:
-        found["dtick"] = 1
+    elif log:
+        found["dtick"] = 1 if np.ptp(ends) > _DECADES else "D2"
     return found
 
 

@@ -87,5 +87,6 @@ def test_what_only_a_picture_shows_is_left_to_it(draw):
     if draw in ("contourf", "imshow"):
         getattr(ax, draw)([[1.0, 2.0], [3.0, 4.0]])
     elif draw == "twinx":
-        ax.twinx()
+        ax.plot(X, X)
+        ax.twinx().plot(X, X)
     assert redrawn(figure) is None

@@ -337,6 +337,7 @@ def test_cycle_with_draws_has_their_error_bars_and_what_left_a_range(a_cycle):
         end_temperature_high=31.0,
         time_outside_range=("range", [0.25]),
         energy_outside_range=("range", [0.4]),
+        outside_range=(("step", "range"), [[0.0], [1.0], [0.0]]),  # at 72 km/h
     ).assign_attrs(ranges_left="torque (range.torque)", trace_notes="A note.\nAnother.")
     lost, oil, _, left, *notes = cycle.findings(drawn)
     draws = "uncertain data of axle and heat (95 % of the draws)"
@@ -345,8 +346,8 @@ def test_cycle_with_draws_has_their_error_bars_and_what_left_a_range(a_cycle):
         (NOTE, f"{draws} it ends between", "20, 25 °C, 95 %, 22, 31 °C, 19 °C"),
         (
             WARNING,
-            "Up to … of the energy is lost outside … of the running time",
-            "40 %, 25 %, 40 %",
+            "Up to … of the energy is lost outside … Usable for … not for … of the running time",
+            "40 %, 70 km/h, 0 %, 100 %, 25 %, 40 %",
         ),
         (WARNING, "A note.", ""),
         (WARNING, "Another.", ""),

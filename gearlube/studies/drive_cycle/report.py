@@ -41,6 +41,7 @@ from gearlube.studies.drive_cycle.tables import range_sentence
 from gearlube_core.film_model.model import FLANK, ROLLER
 
 _DRAWN = "efficiency_low"  # a variable of cycles with draws of all uncertain data
+_BAND, _LITTLE = 10.0, 0.1  # km/h; share of the loss that may be extrapolated
 TIME = Axis("time", "s")
 _SETTINGS = {
     "start_temperature_degc": ("temperature of oil and housing at the start", "°C"),
@@ -202,7 +203,28 @@ def _ranges(dataset: xr.Dataset) -> Finding:
         WARNING,
         f"Up to {number_text(share, 2)} % of the energy is lost outside the range of a formula or "
         "table.",
-        f"It is extrapolated there. {left}",
+        f"{_usable(dataset)} {left}",
+    )
+
+
+def _usable(dataset: xr.Dataset) -> str:
+    """Return up to which speed at most a tenth of the loss is extrapolated, as a sentence."""
+    speed = dataset["vehicle_speed"].values
+    lost = dataset["loss"].sum("source").values * dataset["duration"].values
+    outside = lost * (dataset["outside_range"] > 0.0).any("range").values
+
+    def share(where: Any) -> float:
+        return float(outside[where].sum() / max(lost[where].sum(), 1e-9))
+
+    ends = np.arange(_BAND, speed.max() + _BAND, _BAND)
+    good = [end for end in ends if share(speed <= end) <= _LITTLE]
+    inside = speed <= (good[-1] if good else 0.0)
+    if not good or inside.all():
+        usable = "Usable with care" if good else "Usable for no speed"
+        return f"{usable}: {100.0 * share(speed >= 0.0):.0f} % of the loss is extrapolated."
+    return (
+        f"Usable for {good[-1]:g} km/h and below ({100.0 * share(inside):.0f} % of the loss there "
+        f"is extrapolated), not for higher speeds ({100.0 * share(~inside):.0f} %)."
     )
 
 

@@ -241,7 +241,8 @@ def numbers(response: xr.Dataset) -> list[Number]:
     if "model" not in response:
         return []
     found = [Number("natural frequency", float(response.attrs["natural_frequency"]), "Hz", 4)]
-    for one in summaries(response):
+    first = leading_model(response)
+    for one in sorted(summaries(response), key=lambda one: one.model != first):
         label = MODELS[one.model]
         apart = [abs(b - a) for a, b in (*one.separated_up, *one.separated_down)]
         found += [
