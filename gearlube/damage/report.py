@@ -131,10 +131,12 @@ def _answer(
         asked = "No mode of failure has a limit, so it is not known whether it lasts."
         return Finding(NOTE, asked, f"{loads} A finding below says which data it takes.")
     least = min(judged, key=lambda row: math.inf if row[3] == "∞" else float(row[3]))
+    outside = dataset.attrs["outside"]
+    doubt = ", with ratings outside the range of the standard" if outside else ""
     return Finding(
-        GOOD,
-        f"It lasts by all {len(judged)} checks that have a limit; the least safety is {least[3]}: "
-        f"{least[0]}.",
+        NOTE if outside else GOOD,
+        f"It lasts by all {len(judged)} checks that have a limit{doubt}; the least safety is "
+        f"{least[3]}: {least[0]}.",
         f"By {least[6]}. The formulas are not certified. {loads}",
     )
 

@@ -149,6 +149,10 @@ def test_scuffing_is_that_of_the_standard_at_the_worst_bin(whole):
     assert "scuffing: integral temperature" in rows
     assert rows["micropitting: specific film of the standard"][5] == "no limit given"
     assert any("torque of the load stage" in one.headline for one in findings(whole))
+    first = findings(whole)[0]
+    assert first.headline.startswith(("It lasts", "It does not last"))
+    # no verdict is good where the standard does not hold
+    assert first.level != "good" or not whole.attrs["outside"]
 
 
 def test_what_is_missing_is_withheld_in_words():
