@@ -339,3 +339,11 @@ def test_the_report_of_a_sweep_says_what_was_set(state, shown):
     facts = dict(report.facts)
     assert facts["points"] == "4 of 4 finished"
     assert facts["time"] == "12.3 s for 3 computed points"
+
+
+def test_the_largest_loss_carries_its_band():
+    lost = made()["loss"].sum("source")
+    sweep = made().assign(loss_low=0.5 * lost, loss_high=2.0 * lost)
+    (tile,) = [one for one in numbers(sweep) if one.name == "largest loss"]
+    assert tile.band == (210.0, 840.0)
+    assert "420 W (95 %: 210 to 840 W)" in " ".join(one.headline for one in findings(sweep))

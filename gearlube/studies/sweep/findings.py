@@ -29,7 +29,9 @@ from gearlube.studies.sweep.peaks import (
     NearMode,
     Peak,
     crossings,
+    largest_loss,
     largest_peaks,
+    loss_band,
     nearest_mode,
     peak_orders,
 )
@@ -54,8 +56,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
 
     Examples
     --------
-    >>> from gearlube.studies.sweep.datasets import load_sweep
-    >>> findings(load_sweep("gearlube_sweep"))[0].headline  # doctest: +SKIP
+    >>> findings(gl.run_sweep(settings, [60.0], [2500.0]))[0].headline  # doctest: +SKIP
     'Bearing 1 shakes the housing most with mesh order 1: 57.6 N across the pinion (y) at 52 ...'
     """
     failed = int((dataset["status"] != FINISHED).sum())
@@ -230,13 +231,9 @@ def _contact(dataset: xr.Dataset) -> list[Finding]:
 
 
 def _loss(dataset: xr.Dataset) -> list[Finding]:
-    total = dataset["loss"].sum("source", skipna=False)
-    row, column = _place(total.values)
-    point = dataset.isel(preload=row, speed=column)
-    loss = point["loss"].values
-    parts = largest_losses(dataset["source"].values, loss)
-    low, high = (float(point.get(f"loss_{end}", np.nan)) for end in ("low", "high"))
-    band = f" (95 %: {low:.0f} to {high:.0f} W)" if high > low else ""
+    point = largest_loss(dataset)
+    parts = largest_losses(dataset["source"].values, point["loss"].values)
+    band = " (95 %: {:.0f} to {:.0f} W)".format(*ends) if (ends := loss_band(point)) else ""
     efficiency = dataset["efficiency_axle"]
     losing = {
         str(name)
@@ -246,7 +243,7 @@ def _loss(dataset: xr.Dataset) -> list[Finding]:
     return [
         Finding(
             NOTE,
-            f"The largest loss is {quantity_text(float(total.values[row, column]), 'W')}{band} at "
+            f"The largest loss is {quantity_text(float(point['loss'].sum()), 'W')}{band} at "
             f"{float(point['speed_kmh']):g} km/h and preload {float(point['preload']):g} N: "
             f"{parts}.",
             f"The efficiency of the axle is {100.0 * _least(efficiency):.1f} to "

@@ -255,20 +255,32 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
                 Number(f"{name}, order", top.order, "", 1),
                 Number(f"{name}, at", top.speed_kmh, "km/h", 2),
             ]
-    loss = dataset["loss"].sum("source", skipna=False)
+    loss = largest_loss(dataset)
     warmest = kelvin_to_celsius(_most(dataset["flank_temperature_max"]))
     return [
         *found,
         Number("largest transmission error, peak to peak", 1e6 * _most(dataset["dte_pp"]), "µm"),
         Number("least efficiency of the axle", 100.0 * _least(dataset["efficiency_axle"]), "%", 4),
         Number("best efficiency of the axle", 100.0 * _most(dataset["efficiency_axle"]), "%", 4),
-        Number("largest loss", _most(loss), "W"),
+        Number("largest loss", float(loss["loss"].sum()), "W", band=loss_band(loss)),
         Number("least film on a flank", 1e6 * _least(dataset["film_thickness_min"]), "µm"),
         Number("least film ratio", _least(dataset["film_ratio_min"]), "", 2),
         Number("largest roller load", _most(dataset["bearing_roller_load_max"]), "N"),
         Number("least roller load", _least(dataset["bearing_roller_load_min"]), "N"),
         Number("warmest flank film", warmest, "°C"),
     ]
+
+
+def largest_loss(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the point of a sweep with the largest loss."""
+    total = dataset["loss"].sum("source", skipna=False)
+    return dataset.isel(total.argmax(...))
+
+
+def loss_band(point: xr.Dataset) -> tuple[float, float] | None:
+    """Return both ends [W] of the 95 % band of a point's loss; None where it has none."""
+    low, high = (float(point.get(f"loss_{end}", np.nan)) for end in ("low", "high"))
+    return (low, high) if high > low else None
 
 
 def _least(values: xr.DataArray) -> float:
