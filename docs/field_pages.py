@@ -243,13 +243,15 @@ FIELDS_FILE = Path(str(files("gearlube_core.input_file") / FIELDS))
 def fields_text() -> str:
     """Return fields.json as the package has it now: a line for each kind of file."""
     kinds = {model.__name__: model for models in PAGES.values() for model in models}
+    known = ELEMENTS.known()
+    shipped = {kind: one for kind, one in known.items() if one.__module__.startswith("gearlube_")}
     lines = []
     for name, model in kinds.items():
         parts: dict[str, Any] = {}
         if model is TrainFile:
             parts = {
                 section: {kind: section_of(one).model_json_schema() for kind, one in known.items()}
-                for section, known in (("bodies", BODIES), ("elements", ELEMENTS.known()))
+                for section, known in (("bodies", BODIES), ("elements", shipped))
             }
         kind = {"title": model.title, "files": model.files, "unmodelled": dict(model.unmodelled),
                 "schema": model.model_json_schema(), "parts": parts}  # fmt: skip

@@ -20,7 +20,6 @@ from gearlube.report.numbers import column_texts, number_text, unit_words
 from gearlube.report.parts import GIVEN, Input, Report, Table, main_and_rest, ranked
 from gearlube.report.stored import PAGE, as_data, as_json
 from gearlube_core import __version__
-from gearlube_core.storage.atomic_file import write_text
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib", "plotly")
 _SIZE = "@@@@ kB"  # replaced by the size of the page
@@ -47,6 +46,8 @@ def write_report(report: Report, folder: Path | str) -> Path:
     path = folder / PAGE
     if (typed := command_line()) and "command" not in dict(report.facts):
         report = replace(report, facts=[("command", typed), *report.facts])
+    from gearlube_core.storage.atomic_file import write_text  # imports numpy
+
     write_text(report_html(report), path)
     return path
 

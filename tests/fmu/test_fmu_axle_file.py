@@ -364,7 +364,7 @@ def test_a_road_that_asks_for_too_much_torque_is_refused_before_anything_is_buil
         raise AssertionError("built")
 
     monkeypatch.setattr(build, "cached_hypoid_axle", built)
-    monkeypatch.setattr(sweep_run, "_modes_aside", lambda *_: None)  # a process of its own
+    monkeypatch.setattr(sweep_run, "_modes_aside", lambda *_, **_to_build: None)  # its own process
     lorry = tmp_path / "lorry.toml"
     lorry.write_text('gear_set.mesh_table = "mohammadpour_2015"\nvehicle.mass_kg = 40000.0\n')
     out = tmp_path / "out"

@@ -106,7 +106,9 @@ def nothing_computes(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(command.LazyCommand, "load", load_once)
     # in a process of its own, which would compile
-    monkeypatch.setattr("gearlube.studies.sweep.run._modes_aside", lambda *_: lambda: None)
+    monkeypatch.setattr(
+        "gearlube.studies.sweep.run._modes_aside", lambda *_, **_to_build: lambda: None
+    )
     # a folder of the user that is in the way must stay as it is
     (tmp_path / "notes.txt").write_text("mine")
 

@@ -105,7 +105,7 @@ def test_bearing_warns_of_thin_films_and_of_laws_outside_their_range(a_bearing):
     solved.attrs |= {"film_model_roller": "mine", "calibrated": 1}
     films, *_ = (one for one in findings(solved) if "Model: mine" in one.detail)
     assert_findings([films], [(NOTE, "model of solved films", "25 %")])
-    assert "calibrated with a measured torque" in findings(solved)[4].headline
+    assert "calibrated with a measured torque" in findings(solved)[0].detail
 
 
 def test_panels_of_a_figure_have_the_same_axes():
