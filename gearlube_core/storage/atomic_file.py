@@ -211,7 +211,13 @@ def _why(error: BaseException) -> str:
 
 
 def write_dataset(dataset: xr.Dataset, path: Path) -> None:
-    """Write a dataset as NetCDF 3 with a checksum; it needs no library beside scipy."""
+    """Write a dataset as NetCDF 3 with a checksum; it needs no library beside scipy.
+
+    With a dimension of length 0, which NetCDF 3 would take for an unlimited one, it is NetCDF 4.
+    """
+    if 0 in dataset.sizes.values():
+        write_compressed_dataset(dataset, path)
+        return
     with atomic_write(path) as partial:
         dataset.to_netcdf(partial, engine="scipy", format="NETCDF3_64BIT")
         seal(partial)

@@ -172,3 +172,10 @@ def test_the_list_of_checksums_is_one_that_other_tools_check(tmp_path):
     names = {line[66:] for line in lines}
     assert {"results/0.0", "results/1.0", "status/0", "width_mm/0", ".zattrs"} <= names
     assert all(len(line.split("  ")[0]) == 64 for line in lines)
+
+
+def test_a_dataset_with_an_empty_dimension_is_read_as_it_was(tmp_path: Path) -> None:
+    """Such as the folds of a pair whose teeth never part."""
+    folds = xr.Dataset({"speed": (("row", "fold"), np.zeros((2, 0))), "name": ("row", ["a", "b"])})
+    write_dataset(folds, tmp_path / "separation.nc")
+    xr.testing.assert_identical(read_dataset(tmp_path / "separation.nc", sealed=True), folds)
