@@ -15,7 +15,6 @@ from docs.optimise.page import main as write_page
 from docs.page import IMAGES, Page
 from gearlube.output.csv_text import csv_text
 from gearlube.studies.optimise.dataset import measure_rows, unit_of
-from gearlube.studies.optimise.figures import save_optimise_figures
 from gearlube.studies.optimise.run import run_optimise
 from gearlube_core.flank_optimisation.optimise import Optimised, OptimiseSettings
 from gearlube_core.flank_optimisation.problem import values_of
@@ -36,7 +35,7 @@ def make(name: str, folder: Path) -> None:
     if hypoid:
         rows = [(f"{one.whine:.4f}", f"{one.loss:.4f}") for one in found.front]
         write_text(csv_text(("whine", "loss"), rows), HERE / f"{name}_front.csv")
-    for path in save_optimise_figures(results.dataset, folder / name / "figures"):
+    for path in (folder / name / "figures").glob("*.png"):
         if f"optimise_{name}_{path.name}" in Page("optimise").text:
             shutil.copy(path, IMAGES / f"optimise_{name}_{path.name}")
 

@@ -12,8 +12,8 @@ import xarray as xr
 from xarray.plot.accessor import DatasetPlotAccessor
 
 from gearlube.output.units import unit_of
-from gearlube.plotting.figure_files import save_figure_folder
 from gearlube.report.page import write_report
+from gearlube.report.pictures import save_picture
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import ZERO_CELSIUS
 
@@ -77,7 +77,7 @@ _SHOWN = {
         "studies.design.figures:DESIGN_CATALOGUE", "studies.design.run:design_report", True
     ),
     "optimise": _Shown(
-        "studies.optimise.figures:OPTIMISE_CATALOGUE", "studies.optimise.report:optimise_report"
+        "studies.optimise.figures:drawn_figures", "studies.optimise.report:optimise_report", True
     ),
     "damage": _Shown("damage.figures:damage_figures", "damage.report:damage_report", True),
     "drivetrain": _Shown("studies.drivetrain.figures:power_figure"),
@@ -144,8 +144,9 @@ class Result(xr.Dataset):
             )
         if not shown.pictured:
             return write_report(_named(shown.report)(self), folder)
-        drawn = {name: _drawn(one, self) for name, one in _catalogue(self).items()}
-        save_figure_folder(drawn, folder / "figures")
+        (folder / "figures").mkdir(parents=True, exist_ok=True)
+        for name, one in _catalogue(self).items():
+            save_picture(_drawn(one, self), folder / "figures" / f"{name}.png")
         return write_report(_named(shown.report)(self, folder / "figures"), folder)
 
 

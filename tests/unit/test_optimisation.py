@@ -6,6 +6,9 @@ import xarray as xr
 
 from gearlube.report.page import report_html
 from gearlube.report.parts import GOOD, NOTE, WARNING
+from gearlube.report.pictures import save_pictures
+from gearlube.report.redrawn import redrawn
+from gearlube.studies.optimise.figures import drawn_figures
 from gearlube.studies.optimise.findings import decibels, findings, numbers
 from gearlube.studies.optimise.report import optimise_report
 from gearlube_core.errors import ParameterError
@@ -227,7 +230,7 @@ def test_fields_on_their_bounds_a_search_without_success_and_the_nominal_pair_ar
     assert_findings(findings(three)[-1:], [said])
 
 
-def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
+def test_an_optimisation_has_its_known_key_numbers_findings_and_tables(tmp_path):
     assert list(decibels(optimised())) == [50.0, 100.0]
     known = [
         ("change of all mesh orders at 50 N·m", -20.0, "dB", "−20.0"),  # a tenth
@@ -254,14 +257,16 @@ def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
         front_loss=("front", [0.95, 0.9]),
         front_value=(("front", "parameter"), [[7.0], [5.0]]),
     )
-    report = optimise_report(better)
-    charts = {one.name: [list(line.y) for line in one.chart.data] for one in report.figures}
+    save_pictures(drawn_figures(better), tmp_path, better)
+    report = optimise_report(better, tmp_path)
+    assert [one.chart is None for one in report.figures] == [False] * 4
+    drawn = {name: redrawn(one.draw(better)).data for name, one in drawn_figures(better).items()}
+    charts = {name: [list(line.y) for line in lines] for name, lines in drawn.items()}
     np.testing.assert_allclose(charts["mesh_orders"], [[20.0], [2.0], [24.0], [10.0]])
-    shape = 10.0 * np.cos(2.0 * np.pi * np.arange(9) / 8)
-    np.testing.assert_allclose(charts["transmission_error"], np.tile(shape, (4, 1)), atol=1e-5)
-    errors = report.figures[2].chart.data
+    shape = 10.0 * np.cos(2.0 * np.pi * np.arange(17) / 8)  # with the error alike
+    np.testing.assert_allclose(charts["transmission_error"], np.tile(shape, (8, 1)), atol=1e-5)
     spread = [[20.0, 25.0], [2.0, 5.0], [24.0, 30.0], [10.0, 12.0]]
-    np.testing.assert_allclose([one.x for one in errors], spread)
+    np.testing.assert_allclose([one.x for one in drawn["errors"]], spread)
     np.testing.assert_allclose(np.ravel(charts["front"][0]), [0.95, 0.9])
     assert quantities(report.subtitle) == ["1", "50", "100 N·m", "1", "8"]
     texts = {  # after 1.5 times: GPa, and the share of the border
@@ -298,4 +303,4 @@ def test_an_optimisation_has_its_known_key_numbers_findings_and_tables():
     assert [one.folded for one in report.tables] == [False, True, True, True]
     assert "−20.0 dB" in report_html(report)
     undercut = optimised().assign_attrs(remarks="The pinion is undercut. Look.")
-    assert optimise_report(undercut).findings[-1].headline == "The pinion is undercut."
+    assert optimise_report(undercut, tmp_path).findings[-1].headline == "The pinion is undercut."

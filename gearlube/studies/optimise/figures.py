@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from gearlube.plotting.style import BLUE, GREEN, GREY, VERMILLION, house_style, new_figure
-from gearlube_core.storage.atomic_file import write_figure
+from gearlube.report.pictures import Picture
 
 _COLOURS = {"before": GREY, "better": BLUE, "nominal": GREEN}
 NAMES = {"before": "before", "better": "after", "nominal": "best without errors"}
@@ -131,23 +130,31 @@ def _legend_below(figure: Any, ax: Any) -> None:
 
 
 OPTIMISE_CATALOGUE = {
-    "transmission_error": errors_over_mesh,
-    "mesh_orders": mesh_orders,
-    "errors": sensitivity_to_errors,
-    "front": whine_against_loss,
+    "transmission_error": Picture(
+        errors_over_mesh,
+        "Loaded transmission error",
+        "Over two mesh periods, mean removed; thin: with errors. The flatter, the quieter.",
+    ),
+    "mesh_orders": Picture(
+        mesh_orders,
+        "Mesh orders before and after",
+        "Amplitudes of the loaded transmission error without errors, at each torque.",
+    ),
+    "errors": Picture(
+        sensitivity_to_errors,
+        "Mesh orders with errors",
+        "All orders together under each error of assembly and making. The closer together the "
+        "points of a pair are, the less the errors matter.",
+    ),
+    "front": Picture(
+        whine_against_loss,
+        "Mesh orders against loss",
+        "The smallest loss for each level of the mesh orders, with the coarse cells of the search.",
+    ),
 }
 
 
-def save_optimise_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
-    """Draw the figures that the dataset has into `directory` as PNG and return the files."""
-    directory.mkdir(parents=True, exist_ok=True)
-    files = []
-    for name, draw in OPTIMISE_CATALOGUE.items():
-        if name == "front" and "front_whine" not in dataset:
-            continue
-        if name == "errors" and dataset.sizes["error"] < 2:
-            continue
-        path = directory / f"{name}.png"
-        write_figure(draw(dataset), path)
-        files.append(path)
-    return files
+def drawn_figures(dataset: xr.Dataset) -> dict[str, Picture]:
+    """Return the figures for which a dataset holds data, by name."""
+    there = {"errors": dataset.sizes["error"] > 1, "front": "front_whine" in dataset}
+    return {name: one for name, one in OPTIMISE_CATALOGUE.items() if there.get(name, True)}

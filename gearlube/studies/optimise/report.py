@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
-from gearlube.report.charts import COLOURS, Axis, Line, add_line, line_chart, panels
 from gearlube.report.inputs import file_inputs, remark_findings
-from gearlube.report.parts import Cell, Column, Figure, Input, Report, Table
+from gearlube.report.parts import Cell, Column, Input, Report, Table
+from gearlube.report.pictures import pictured
 from gearlube.studies.optimise.dataset import measures_of
-from gearlube.studies.optimise.figures import NAMES, error_words
+from gearlube.studies.optimise.figures import NAMES, drawn_figures
 from gearlube.studies.optimise.findings import findings, numbers
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.storage.file_names import pair_stem
 
 _MICRO = 1e6
+_MAIN = ("mesh_orders", "transmission_error", "errors", "front")
 _MOST_FIELDS = 8  # that a table of the front shows
 _UNITS = {"um": "µm", "deg": "°", "urad": "µrad", "1": ""}
 _LIMITS = (
@@ -30,8 +30,8 @@ _LIMITS = (
 )
 
 
-def optimise_report(dataset: xr.Dataset) -> Report:
-    """Return the report of an optimisation."""
+def optimise_report(dataset: xr.Dataset, figures: Path) -> Report:
+    """Return the report of an optimisation; `figures` is the folder of its pictures."""
     attributes, sizes = dataset.attrs, dataset.sizes
     kind = HypoidGearFile if attributes["kind"] == "hypoid" else HelicalGearFile
     better: HypoidGearFile | HelicalGearFile = kind.model_validate_json(attributes["gear_file"])
@@ -46,7 +46,8 @@ def optimise_report(dataset: xr.Dataset) -> Report:
         f"with {sizes['phase']} mesh phases; errors are rotations of the pinion.",
         findings=[*findings(dataset), *remark_findings(attributes)],
         numbers=numbers(dataset),
-        figures=_figures(dataset),
+        main_figures=_MAIN,
+        figures=pictured(drawn_figures(dataset), figures),
         tables=[_values(dataset), _measures(dataset), *_error_tables(dataset)],
         inputs=[
             Input("torques", torques, "N·m"),
@@ -57,117 +58,6 @@ def optimise_report(dataset: xr.Dataset) -> Report:
         limits=_LIMITS,
         files=(f"{pair_stem(attributes['name'])}.toml", "optimise.nc", "figures/"),
     )
-
-
-def _figures(dataset: xr.Dataset) -> list[Figure]:
-    found = [
-        Figure(
-            name="mesh_orders",
-            title="Mesh orders before and after",
-            caption="Amplitudes of the loaded transmission error without errors, at each torque.",
-            chart=_order_chart(dataset),
-        ),
-        Figure(
-            name="transmission_error",
-            title="Loaded transmission error",
-            caption="Over a mesh period, mean removed, without errors. The flatter, the quieter.",
-            chart=_error_chart(dataset),
-        ),
-    ]
-    if dataset.sizes["error"] > 1:
-        found.append(
-            Figure(
-                name="errors",
-                title="Mesh orders with errors",
-                caption="All orders together under each error of assembly and making. The closer "
-                "together the points of a pair are, the less the errors matter.",
-                chart=_scatter_chart(dataset),
-            )
-        )
-    if "front_whine" in dataset:
-        front = Line(name="front", x=dataset["front_whine"].values, y=dataset["front_loss"].values)
-        before = Line(name="before", x=[1.0], y=[1.0])
-        axes = (Axis("mesh orders over those before"), Axis("sliding loss over that before"))
-        found.append(
-            Figure(
-                name="front",
-                title="Mesh orders against loss",
-                caption="The smallest loss for each level of the mesh orders, with the coarse "
-                "cells of the search.",
-                chart=line_chart([front, before], *axes),
-            )
-        )
-    return found
-
-
-def _torque_panels(dataset: xr.Dataset, x: Axis, y: Axis, height: int = 260) -> Any:
-    titles = [f"{torque:g} N·m" for torque in dataset["torque"].values]
-    return panels(titles, x, [y] * len(titles), height=height)
-
-
-def _error_chart(dataset: xr.Dataset) -> Any:
-    x, y = Axis("mesh period"), Axis("transmission error", "µrad")
-    figure = _torque_panels(dataset, x, y)
-    phase = np.append(dataset["phase"].values, 1.0)
-    for row, torque in enumerate(dataset["torque"].values, 1):
-        for number, design in enumerate(dataset["design"].values):
-            part = dataset["transmission_error"].sel(torque=torque, design=design).isel(error=0)
-            values = _MICRO * (part.values - part.values.mean())
-            name = NAMES[str(design)]
-            line = Line(name=name, x=phase, y=np.append(values, values[0]))
-            add_line(figure, line, number, x, y, row=row, col=1)
-            figure.data[-1].update(legendgroup=name, showlegend=row == 1)
-    figure.update_layout(showlegend=True)
-    return figure
-
-
-def _order_chart(dataset: xr.Dataset) -> Any:
-    x, y = Axis("mesh order"), Axis("amplitude", "µrad")
-    figure = _torque_panels(dataset, x, y)
-    orders = [str(order) for order in dataset["order"].values]
-    for row, torque in enumerate(dataset["torque"].values, 1):
-        for number, design in enumerate(dataset["design"].values):
-            part = dataset["amplitude"].sel(torque=torque, design=design).isel(error=0)
-            name = NAMES[str(design)]
-            figure.add_bar(
-                x=orders,
-                y=_MICRO * part.values,
-                name=name,
-                legendgroup=name,
-                showlegend=row == 1,
-                marker_color=COLOURS[number],
-                hovertemplate=f"%{{y:.3g}} µrad, order %{{x}}<extra>{name}</extra>",
-                row=row,
-                col=1,
-            )
-    figure.update_xaxes(type="category")
-    figure.update_layout(barmode="group", showlegend=True)
-    return figure
-
-
-def _scatter_chart(dataset: xr.Dataset) -> Any:
-    names = [error_words(str(one)) for one in dataset["error"].values]
-    x, y = Axis("all orders", "µrad"), Axis("")
-    figure = _torque_panels(dataset, x, y, height=120 + 24 * len(names))
-    for row, torque in enumerate(dataset["torque"].values, 1):
-        for number, design in enumerate(dataset["design"].values):
-            name = NAMES[str(design)]
-            figure.add_scatter(
-                x=_MICRO * dataset["whine"].sel(torque=torque, design=design).values,
-                y=names,
-                mode="markers",
-                name=name,
-                legendgroup=name,
-                showlegend=row == 1,
-                marker={"color": COLOURS[number], "size": 9},
-                hovertemplate=f"%{{x:.3g}} µrad, %{{y}}<extra>{name}</extra>",
-                row=row,
-                col=1,
-            )
-    figure.update_yaxes(type="category", autorange="reversed", automargin=True)
-    figure.update_xaxes(rangemode="tozero")
-    figure.update_layout(showlegend=True)
-    return figure
 
 
 def _values(dataset: xr.Dataset) -> Table:

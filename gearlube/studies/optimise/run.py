@@ -8,9 +8,10 @@ from typing import ClassVar
 
 from gearlube.output.toml_text import toml_text
 from gearlube.report.page import write_report
+from gearlube.report.pictures import save_pictures
 from gearlube.report.result import Result, WithResult
 from gearlube.studies.optimise.dataset import optimise_dataset
-from gearlube.studies.optimise.figures import save_optimise_figures
+from gearlube.studies.optimise.figures import drawn_figures
 from gearlube.studies.optimise.report import optimise_report
 from gearlube_core.flank_optimisation.optimise import Optimised, OptimiseSettings, optimise
 from gearlube_core.flank_optimisation.problem import Problem
@@ -96,6 +97,6 @@ def write_optimise(results: OptimiseResults, folder: Path) -> Path:
     )
     write_text(toml_text(file.model_dump(exclude_defaults=True)), path)
     write_dataset(results.dataset, folder / "optimise.nc")
-    save_optimise_figures(results.dataset, folder / "figures")
-    write_report(optimise_report(results.dataset), folder)
+    save_pictures(drawn_figures(results.dataset), folder / "figures", results.dataset)
+    write_report(optimise_report(results.dataset, folder / "figures"), folder)
     return path
