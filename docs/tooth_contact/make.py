@@ -19,7 +19,8 @@ from docs.tooth_contact.pages import refinement_words, torque_rows, variant_row
 from docs.tooth_contact.relief import put_relief
 from docs.tooth_contact.study import axle_sweep, refinements
 from docs.tooth_contact.variants import variants
-from gearlube.studies.contact.figures import save_contact_figures
+from gearlube.report.pictures import save_pictures
+from gearlube.studies.contact.figures.catalogue import CONTACT_CATALOGUE
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
 
@@ -52,7 +53,7 @@ def main(work: Path) -> None:
     page.fill("mean stiffness by at most {} %. The chosen size of the elastic body changes it by "
               "{} to {} %.", *refinement_words(finer))  # fmt: skip
     page.write()
-    for picture in save_contact_figures(shipped, work / "figures"):
+    for picture in save_pictures(CONTACT_CATALOGUE, work / "figures", shipped):
         if f"contact_{picture.name}" in page.text:
             shutil.copyfile(picture, IMAGES / f"contact_{picture.name}")
     sensitivity.main()

@@ -13,7 +13,7 @@ from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.report.stored import read_report
 from gearlube.studies.contact import run as contact_run
 from gearlube.studies.contact import sensitivity
-from gearlube.studies.contact.figures import CONTACT_CATALOGUE
+from gearlube.studies.contact.figures.catalogue import CONTACT_CATALOGUE
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.hypoid_contact import contact_dataset, mesh_cycle
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings

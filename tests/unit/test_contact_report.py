@@ -8,7 +8,6 @@ import xarray as xr
 
 from gearlube.report.parts import GOOD, NOTE, WARNING
 from gearlube.studies.contact.figures import catalogue
-from gearlube.studies.contact.figures.flank_maps import stiffness_chart
 from gearlube.studies.contact.findings import (
     contact_summary,
     edge_torque,
@@ -68,14 +67,6 @@ def test_the_first_mesh_order_of_the_error_is_the_amplitude_of_its_cosine():
     # exact but for rounding of the transform
     found = first_order(contact().sel(side="drive"))
     np.testing.assert_allclose(found, AMPLITUDE, rtol=1e-9)
-
-
-def test_the_chart_of_stiffness_has_the_pairs_that_its_caption_names():
-    chart = stiffness_chart(contact().assign(k_t=1.5 * contact()["k_m"]))
-    lines = {(one.name, one.yaxis): one.y for one in chart.data}
-    np.testing.assert_allclose(lines["drive, secant", "y"], 300.0)  # N/um
-    np.testing.assert_allclose(lines["coast, tangent", "y"], 450.0)
-    np.testing.assert_allclose(lines["drive, pairs", "y2"], 2.0)  # two of five carry load
 
 
 def test_a_pressure_above_that_of_edges_is_told_with_its_torque():

@@ -4,22 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import xarray as xr
 
 from gearlube.report.inputs import file_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Figure, Report, Table
-from gearlube.report.pictures import pictured
+from gearlube.report.pictures import pictured, save_pictures
 from gearlube.report.result import Result, WithResult
-from gearlube.studies.contact.figures import save_contact_figures
 from gearlube.studies.contact.figures.catalogue import CONTACT_CATALOGUE
-from gearlube.studies.contact.figures.flank_maps import (
-    load_share_chart,
-    stiffness_chart,
-    transmission_chart,
-)
 from gearlube.studies.contact.figures.solid_view import solid_view
 from gearlube.studies.contact.findings import contact_summary, findings, numbers
 from gearlube_core.hypoid_contact.contact_dataset import ContactSettings, analyse_contact
@@ -138,7 +132,7 @@ def run_contact(
     if folder is not None:
         progress(1.0, "writing report and figures")
         write_dataset(dataset, folder / "contact.nc")
-        save_contact_figures(dataset, folder / "figures")
+        save_pictures(CONTACT_CATALOGUE, folder / "figures", dataset)
         write_report(contact_report(dataset, folder / "figures"), folder)
     results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
@@ -150,11 +144,6 @@ def contact_report(contact: xr.Dataset, figures: Path) -> Report:
     """Return the report of a contact analysis; `figures` is the folder of its pictures."""
     attributes = contact.attrs
     torques = ", ".join(f"{one:g}" for one in contact["torque"].values)
-    charts: dict[str, Any] = {
-        "transmission_error": transmission_chart(contact),
-        "load_share": load_share_chart(contact),
-        "stiffness_torque": stiffness_chart(contact),
-    }
     return Report(
         study="contact",
         title=f"Tooth contact of the hypoid pair {attributes['name']}",
@@ -164,7 +153,7 @@ def contact_report(contact: xr.Dataset, figures: Path) -> Report:
         findings=findings(contact),
         numbers=numbers(contact),
         main_figures=_MAIN,
-        figures=[_solid(contact), *pictured(CONTACT_CATALOGUE, figures, charts)],
+        figures=[_solid(contact), *pictured(CONTACT_CATALOGUE, figures)],
         tables=[_table(contact)],
         inputs=file_inputs(HypoidGearFile.model_validate_json(attributes["gear_file"])),
         limits=_LIMITS,

@@ -6,13 +6,11 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import numpy as np
 import xarray as xr
 
 from gearlube.output.toml_text import toml_text
-from gearlube.report.charts import Axis, Line, add_line, panels
 from gearlube.report.inputs import stored_inputs
 from gearlube.report.page import write_report
 from gearlube.report.parts import Cell, Column, Report, Table
@@ -146,7 +144,6 @@ def write_design(results: DesignResults, folder: Path) -> Path:
 def design_report(dataset: xr.Dataset, figures: Path) -> Report:
     """Return the report of a design; `figures` is the folder of its pictures."""
     attributes = dataset.attrs
-    charts = {"transmission_error": _error_chart(dataset), "tooth_widths": _width_chart(dataset)}
     return Report(
         study="design",
         title=f"Designed pair {attributes['name']}",
@@ -154,7 +151,7 @@ def design_report(dataset: xr.Dataset, figures: Path) -> Report:
         f"{attributes['cut']}, pinion generated with cutter tilt.",
         findings=findings(dataset),
         numbers=numbers(dataset),
-        figures=pictured(DESIGN_CATALOGUE, figures, charts),
+        figures=pictured(DESIGN_CATALOGUE, figures),
         tables=[_contact(dataset), _teeth(dataset), _blank(dataset), _settings(dataset)],
         inputs=stored_inputs(attributes, "inputs"),
         limits=_LIMITS,
@@ -166,46 +163,6 @@ def design_report(dataset: xr.Dataset, figures: Path) -> Report:
             "figures/",
         ),
     )
-
-
-def _error_chart(dataset: xr.Dataset) -> Any:
-    x, y = Axis("pinion rotation", "mesh periods"), Axis("gear lags", "µrad")
-    figure = panels([f"{side} flanks" for side in SIDES], x, [y] * len(SIDES), height=280)
-    for row, side in enumerate(SIDES, 1):
-        part = dataset.sel(side=side)
-        error = part["error"].values
-        zero = np.nanmin(error) if side == "drive" else np.nanmax(error)
-        phase = np.append(part["mesh_phase"].values, part["mesh_phase"].values + 1.0)
-        single = part["path_error"].values
-        for number, (name, place, values) in enumerate(
-            (
-                ("mesh", phase, np.tile(error, 2)),
-                ("one pair alone", part["path_phase"].values + 1.0, single),
-            )
-        ):
-            line = Line(name=name, x=place, y=(values - zero) / _MICRO, dash=number)
-            add_line(figure, line, number, x, y, row=row, col=1)
-            figure.data[-1].update(mode="lines", legendgroup=name, showlegend=row == 1)
-        span = max(float(np.nanmax(error) - np.nanmin(error)) / _MICRO, 1.0)
-        low = float(np.nanmin(error) - zero) / _MICRO
-        figure.update_yaxes(range=[low - 0.4 * span, low + 1.4 * span], row=row, col=1)
-    figure.update_xaxes(range=[0.0, 2.0])
-    figure.update_layout(showlegend=True)
-    return figure
-
-
-def _width_chart(dataset: xr.Dataset) -> Any:
-    x, y = Axis("face width, toe 0 to heel 1"), Axis("width", "mm")
-    figure = panels(("Topland", "Slot at the root"), x, (y, y), height=260)
-    for row, name in enumerate(("topland", "slot"), 1):
-        for number, member in enumerate(dataset["member"].values):
-            values = dataset[name].sel(member=member).values / MILLIMETRE
-            line = Line(name=str(member), x=dataset["face"].values, y=values)
-            add_line(figure, line, number, x, y, row=row, col=1)
-            figure.data[-1].update(mode="lines", legendgroup=line.name, showlegend=row == 1)
-    figure.update_yaxes(rangemode="tozero")
-    figure.update_layout(showlegend=True)
-    return figure
 
 
 def _contact(dataset: xr.Dataset) -> Table:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,8 +9,14 @@ import xarray as xr
 
 from gearlube.plotting.style import GREY, SERIES, WIDTHS, house_style, new_figure
 from gearlube.plotting.words import mark_edge_pressure
-from gearlube.report.pictures import Picture, save_pictures
-from gearlube.studies.contact.figures.flank_maps import _SIDES, _spread, ease_off_map, pressure_maps
+from gearlube.report.pictures import Picture
+from gearlube.studies.contact.figures.flank_maps import (
+    _SIDES,
+    _spread,
+    ease_off_map,
+    loaded_error,
+    pressure_maps,
+)
 
 _LOADED = 1e-3  # share above which a pair is drawn
 
@@ -206,8 +211,7 @@ def _stiffness_and_radii(dataset: xr.Dataset) -> Any:
 def _loaded(ax: Any, part: xr.Dataset) -> None:
     for row, torque in enumerate(_spread(part["torque"].values)):
         state = part.sel(torque=torque)
-        error = 1e6 * float(state["R_p"].mean()) * state["rotation"].values
-        x, y = _two_periods(part["phase"].values, error - error.mean())
+        x, y = _two_periods(part["phase"].values, loaded_error(state))
         ax.plot(x, y, color=SERIES[row], label=f"{torque:g} N·m")
     ax.set_xlim(0.0, 2.0)
     ax.set_ylabel("approach of the teeth [µm]")
@@ -264,8 +268,3 @@ CONTACT_CATALOGUE = {
         "sliding per pinion speed. Entrainment builds the film; sliding makes heat.",
     ),
 }
-
-
-def save_contact_figures(dataset: xr.Dataset, directory: Path) -> list[Path]:
-    """Draw every figure into `directory` as PNG and return the files."""
-    return save_pictures(CONTACT_CATALOGUE, directory, dataset)
