@@ -74,12 +74,12 @@ _WORDS = {
 }
 
 
-def film_report(dataset: xr.Dataset, figures: Path, command_line: str = "") -> Report:
+def film_report(dataset: xr.Dataset, figures: Path) -> Report:
     """Return the report of a film; `figures` is the folder of its pictures."""
     of, said = dataset.attrs, findings(dataset)
     kind = str(of["contact"])
     catalogue = drawn_figures(dataset)
-    facts = (("command", command_line), ("source", str(of["source"])), ("outcome", of["outcome"]))
+    facts = (("source", str(of["source"])), ("outcome", of["outcome"]))
     return Report(
         study=f"ehl {kind}",
         title=f"Film of {of['name']}",
@@ -141,26 +141,24 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
 
 
 def _main_charts(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return charts by the names of the figures that they stand for."""
+    """Return charts in place of the figures with two scales, by name."""
+    drawn = {
+        "line": ("profile", _line), "point": ("sections", _point), "helical": ("along", _along)
+    }  # fmt: skip
     kind = dataset.attrs["contact"]
-    if kind == "line":
-        return {"profile": _line(dataset)}
-    if kind == "point":
-        return {"sections": _point(dataset)}
-    if kind == "helical":
-        return {"along": _along(dataset)}
-    if kind == "helical_cycle":
-        return {"cycle": _cycle(dataset)}
-    return {"curves": _hypoid(dataset)}
+    if kind not in drawn:
+        return {}
+    name, draw = drawn[kind]
+    return {name: draw(dataset)}
 
 
 def _two(
     titles: Sequence[str],
     x: Axis,
     lines: Sequence[tuple[int, Line]],
-    y: Sequence[Axis] = (_PRESSURE, _FILM),
 ) -> Any:
     """Return lines in panels, each with the number of its panel from 1."""
+    y = (_PRESSURE, _FILM)
     figure = panels(titles, x, y, 280)
     for number, (row, line) in enumerate(lines):
         add_line(figure, line, number, x, y[row - 1], row=row, col=1)
@@ -216,37 +214,3 @@ def _along(dataset: xr.Dataset) -> Any:
         ],
     )
     return _limits(figure, dataset)
-
-
-def _cycle(dataset: xr.Dataset) -> Any:
-    step = dataset["step"].values
-    return _two(
-        ("Largest pressure", "Smallest film"),
-        Axis("step of the meshing cycle"),
-        [
-            (1, Line(name="pressure", x=step, y=1e-9 * dataset["pressure_max"].values)),
-            (2, Line(name="film", x=step, y=1e6 * dataset["minimum_film"].values)),
-        ],
-    )
-
-
-def _hypoid(dataset: xr.Dataset) -> Any:
-    phase = dataset["steady_phase"].values
-
-    def line(label: str, name: str, scale: float, group: int, dash: int = 0) -> Line:
-        return Line(name=label, x=phase, y=scale * dataset[name].values, group=group, dash=dash)
-
-    return _two(
-        ("Central film", "Smallest film", "Coefficient of friction"),
-        Axis("mesh periods from the middle of the engagement"),
-        [
-            (1, line("solved", "steady_central_film", 1e6, 0)),
-            (1, line("Chittenden et al. 1985", "chittenden_central", 1e6, 1, 1)),
-            (1, line("Grubin 1949", "grubin", 1e6, 2, 1)),
-            (2, line("solved, smallest", "steady_minimum_film", 1e6, 0)),
-            (2, line("Chittenden, smallest", "chittenden_minimum", 1e6, 1, 1)),
-            (3, line("solved, heated Eyring", "steady_traction_heated", 1.0, 0)),
-            (3, line("Evans and Johnson 1986", "evans_johnson", 1.0, 3, 1)),
-        ],
-        (_FILM, _FILM, Axis("friction")),
-    )

@@ -24,7 +24,6 @@ from gearlube.cli.options import (
 )
 from gearlube.cli.ranges import numbers_from
 from gearlube.cli.study_run import empty_table, study_run, tell_findings
-from gearlube.report.page import command_line
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 from gearlube_core.units import rpm_to_rads
@@ -235,7 +234,6 @@ def helical(
                 folder=out,
                 jobs=jobs,
                 progress=progress,
-                command_line=command_line(),
             )
             if export and not results.interrupted:
                 for path in write_gears(file, out / "gears"):

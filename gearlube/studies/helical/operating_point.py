@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.report.inputs import remark_attributes
+from gearlube.report.page import command_line
 from gearlube.studies.helical.settings import HARMONICS, HelicalSettings
 from gearlube_core import __version__
 from gearlube_core.dynamics.helical_pair.linear.linear_system import (
@@ -64,12 +65,12 @@ def description_of(name: str) -> str:
     return f"moment of the bearings on the {member} about {axis}"
 
 
-def study_attributes(settings: HelicalSettings, command_line: str) -> dict[str, Any]:
+def study_attributes(settings: HelicalSettings) -> dict[str, Any]:
     """Return the settings of a study in SI units, and the sources of the pair's data."""
     attributes: dict[str, Any] = {
         "name": settings.file.name,
         "source": settings.file.source,
-        "command_line": command_line,
+        "command_line": command_line(),
         "gearlube_version": __version__,
         "pinion_torque": settings.pinion_torque,
         "pinion_torque_units": "N.m",

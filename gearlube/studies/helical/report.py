@@ -66,51 +66,6 @@ _LIMITS = (
 )
 
 
-def _harris_chart(contact: xr.Dataset) -> Any:
-    """Return range and mesh orders of the loaded transmission error over torque."""
-    torque = contact["torque"].values
-    error = 1e6 * contact["transmission_error"].transpose("phase", "torque").values
-    orders = 2.0 * np.abs(np.fft.rfft(error, axis=0)) / error.shape[0]
-    lines = [Line(name="peak to peak", x=torque, y=np.ptp(error, axis=0), group=_ORDERS)]
-    lines += [
-        Line(name=f"order {order}", x=torque, y=orders[order], group=order - 1)
-        for order in range(1, min(4, orders.shape[0] - 1))
-    ]
-    chart = line_chart(lines, Axis("pinion torque", "N·m"), Axis("loaded transmission error", "µm"))
-    mark_level(chart, float(contact.attrs["pinion_torque"]), "operating point", across=False)
-    return chart
-
-
-def _separation_chart(separation: xr.Dataset) -> Any:
-    """Return the transmission error over speed with teeth that can separate, and without."""
-    lines = []
-    for group, ratio in enumerate(separation["damping"].values):
-        part = separation.sel(damping=ratio)
-        for number in range(2):
-            rows = np.flatnonzero(part["segment"].values == number)
-            if rows.size:
-                lines.append(
-                    Line(
-                        name=f"can separate, damping {ratio:g}",
-                        x=part["speed"].values[rows] / RPM,
-                        y=1e6 * part["peak_to_peak"].values[rows],
-                        group=group,
-                    )
-                )
-        lines.append(
-            Line(
-                name=f"always in contact, damping {ratio:g}",
-                x=separation["linear_speed"].values / RPM,
-                y=1e6 * part["linear_peak_to_peak"].values,
-                group=group,
-                dash=2,
-            )
-        )
-    chart = line_chart(lines, _SPEED, Axis("transmission error, peak to peak", "µm", log=True))
-    chart.update_xaxes(exponentformat="none")
-    return chart
-
-
 def _loss_chart(losses: xr.Dataset) -> Any:
     """Return lost power and efficiency over speed, a line for each torque; one has its band."""
     y = Axis("power lost", "W"), Axis("efficiency of the teeth", "%")
@@ -148,19 +103,10 @@ def _loss_chart(losses: xr.Dataset) -> Any:
     return chart
 
 
-_CHARTS = {
-    "losses": ("losses", _loss_chart),
-    "harris_map": ("contact", _harris_chart),
-    "separation": ("separation", _separation_chart),
-}
-
-
 def helical_report(results: HelicalResults, figures: Path) -> Report:
     """Return the report of a study; `figures` is the folder of its pictures."""
     found, settings = results.datasets, results.settings
-    charts: dict[str, Any] = {
-        name: draw(found[needed]) for name, (needed, draw) in _CHARTS.items() if needed in found
-    }
+    charts = {"losses": _loss_chart(found["losses"])} if "losses" in found else {}
     said = findings(found)
     own = [_error_orders(results)] if "sweep" in found else []
     attributes = next(iter(found.values())).attrs if found else {}

@@ -39,7 +39,6 @@ def run_helical(
     store: Path | None = None,
     jobs: int | None = None,
     progress: Progress = no_progress,
-    command_line: str = "",
 ) -> HelicalResults:
     """Return contact, vibration, instability, separation, film and geometry of a helical pair.
 
@@ -57,8 +56,6 @@ def run_helical(
         Number of processes; default: all processors.
     progress : callable, optional
         Called with the share that is done [-] and a sentence on what runs.
-    command_line : str
-        Command that the datasets record.
 
     Raises
     ------
@@ -81,7 +78,7 @@ def run_helical(
     """
     if store is None and folder is not None:
         store = folder / PARTS
-    results = _solved(settings, store, jobs, part_of(progress, 0.0, _COMPUTING), command_line)
+    results = _solved(settings, store, jobs, part_of(progress, 0.0, _COMPUTING))
     if folder is not None:
         progress(_COMPUTING, "stopped" if results.interrupted else "files and figures")
         write_helical(results, folder)
@@ -108,11 +105,7 @@ def write_helical(results: HelicalResults, folder: Path) -> None:
 
 
 def _solved(
-    settings: HelicalSettings,
-    store: Path | None,
-    jobs: int | None,
-    progress: Progress,
-    command_line: str,
+    settings: HelicalSettings, store: Path | None, jobs: int | None, progress: Progress
 ) -> HelicalResults:
     study = RunningStudy(settings=settings, store=store, jobs=jobs)
     stages = stages_of(settings)
@@ -134,7 +127,7 @@ def _solved(
     except KeyboardInterrupt:
         interrupted = True
     for dataset in study.datasets.values():
-        dataset.attrs = study_attributes(settings, command_line) | dataset.attrs
+        dataset.attrs = study_attributes(settings) | dataset.attrs
     return HelicalResults(
         settings=settings,
         datasets=study.datasets,

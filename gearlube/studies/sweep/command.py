@@ -21,7 +21,6 @@ from gearlube.cli.options import (
     given_cooling,
 )
 from gearlube.cli.study_run import study_run
-from gearlube.report.page import command_line
 
 logger = logging.getLogger("gearlube")
 
@@ -242,7 +241,6 @@ def sweep(
                 scheduler=scheduler,
                 peak_step_kmh=0.0 if quick else peak_step,
                 progress=progress,
-                command_line=command_line(),
             )
             progress(1.0, "writing the report")
             report = write_sweep_report(dataset, out, ESSENTIAL if quick else CATALOGUE)

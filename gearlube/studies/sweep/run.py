@@ -19,6 +19,7 @@ import xarray as xr
 import drivetrain
 from drivetrain.axle_file.axle_file import CarAxle
 from gearlube.report.films import film_model_attributes
+from gearlube.report.page import command_line
 from gearlube.report.result import Result
 from gearlube.studies.sweep.axle_in_fmu import (
     assumed_inputs,
@@ -124,7 +125,6 @@ def run_sweep(
     scheduler: str | None = None,
     peak_step_kmh: float = 0.0,
     progress: Progress = no_progress,
-    command_line: str = "",
     model: SweepModel = AXLE_MODEL,
 ) -> Result:
     """Run the axle FMU over a grid of vehicle speeds and bearing preloads; return all results.
@@ -154,8 +154,6 @@ def run_sweep(
         until they lie this far apart there [km/h]; 0: none.
     progress : callable
         Called after every point with the share done [-] and a sentence on the point.
-    command_line : str
-        Command that the dataset records.
     model : SweepModel
         Replaces the simulation, e.g. in tests.
 
@@ -253,7 +251,7 @@ def run_sweep(
             "mesh_table": car_axle.axle.mesh.name,
             "mesh_table_source": car_axle.axle.mesh.source,
             **film_model_attributes(of_axle.axle.film_models),
-            "command_line": command_line,
+            "command_line": command_line(),
             "scheduler": scheduler or "local processes",
             "computed_points": computed,
             "wall_time": wall_time,

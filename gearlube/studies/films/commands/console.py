@@ -15,7 +15,6 @@ from rich.table import Table
 from gearlube.cli.exit_codes import console, exit_if_failed, exit_on_error
 from gearlube.cli.results_folder import results_folder
 from gearlube.cli.study_run import progress_on, tell_findings
-from gearlube.report.page import command_line
 from gearlube_core.checks import check_within
 from gearlube_core.errors import ParameterError
 
@@ -88,7 +87,7 @@ def solve_and_show(
         dataset = solve(progress)
     _show(dataset)
     logger.info("Results: %s, %s", dataset_file(dataset, out), out / "figures")
-    report = film_report(dataset, out / "figures", command_line())
+    report = film_report(dataset, out / "figures")
     tell_findings(report.findings, write_report(report, out))
     outcome = str(dataset.attrs["outcome"])
     exit_if_failed("" if dataset.attrs["converged"] else outcome)
