@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.report.charts import Axis, Line, add_line, bar_chart, panels
-from gearlube.report.numbers import number_text, quantity_text, unit_words
+from gearlube.report.charts import COLOURS, Axis, bar_chart
+from gearlube.report.numbers import number_text, quantity_text
 from gearlube.report.parts import (
     GOOD,
     NOTE,
@@ -19,7 +19,8 @@ from gearlube.report.parts import (
     Number,
     Report,
 )
-from gearlube.variation.figures import line_axis
+from gearlube.report.pictures import shown
+from gearlube.variation.figures import line_axis, line_figure
 from gearlube.variation.store import gridded
 from gearlube.variation.summary import inputs_of, varies
 from gearlube.variation.tables import MOST, Shown, conditions, shown_quantities, tables, units_of
@@ -186,24 +187,22 @@ def variation_report(results: xr.Dataset, summary: xr.Dataset) -> Report:
 
 def _figures(results: xr.Dataset, summary: xr.Dataset) -> list[Figure]:
     found = []
-    shown = shown_quantities(results)
+    quantities = shown_quantities(results)
     if line_axis(summary):
+        lines = "; the median of the samples, the band has 95 % of them."
+        if not summary.sizes["input"]:
+            lines = ", a line for each combination of the other axes."
         found.append(
-            Figure(
-                name="lines",
-                title=f"Over {line_axis(summary)}",
-                caption="The quantities over the longest axis"
-                + (
-                    "; the median of the samples, dashed the ends of 95 % of them."
-                    if summary.sizes["input"]
-                    else ", a line for each combination of the other axes."
-                ),
-                chart=line_panels(results, summary, shown),
+            shown(
+                "lines",
+                f"Over {line_axis(summary)}",
+                f"The quantities over the longest axis{lines}",
+                line_figure(results, summary),
             )
         )
     if not summary.sizes["input"]:
         return found
-    if drawn := [one for one in shown if _varies(results, one)]:
+    if drawn := [one for one in quantities if _varies(results, one)]:
         found.append(
             Figure(
                 name="histograms",
@@ -212,7 +211,7 @@ def _figures(results: xr.Dataset, summary: xr.Dataset) -> list[Figure]:
                 chart=histogram_chart(results, summary, drawn),
             )
         )
-    for one in shown[:MOST]:
+    for one in quantities[:MOST]:
         ranks = summary["rank_correlation"].sel(quantity=one.name)
         mean = ranks.mean([d for d in ranks.dims if d != "input"]).values
         over = ", mean over the axes" if ranks.size > mean.size else ""
@@ -240,36 +239,9 @@ def _varies(results: xr.Dataset, one: Shown) -> bool:
     return bool(values.size > 1 and varies(values))
 
 
-def line_panels(results: xr.Dataset, summary: xr.Dataset, shown: list[Shown]) -> Any:
-    """Return the shown quantities over the longest axis, a panel for each."""
-    along = line_axis(summary)
-    x_axis = Axis(along, unit_words(units_of(results)[along]))
-    axes = [Axis(one.meaning, one.unit) for one in shown]
-    chart = panels([""] * len(shown), x_axis, axes, height=280)
-    first = conditions(summary.isel({along: 0}))[:MOST]
-    for row, (one, axis) in enumerate(zip(shown, axes, strict=True), 1):
-        values = one.factor * summary["statistics"].sel(quantity=one.name)
-        for number, (words, cell) in enumerate(first):
-            others = [d for d in values.dims if d in cell["failed"].coords and d != along]
-            at = values.sel({d: cell[d].values.item() for d in others})
-            ends = ("p50", "p2.5", "p97.5") if summary.sizes["input"] else ("p50",)
-            for end in ends:
-                line = Line(
-                    name=words or one.name,
-                    x=summary[along].values,
-                    y=at.sel(statistic=end).values,
-                    dash=int(end != "p50"),
-                )
-                shows = row == 1 and end == "p50" and bool(words)
-                add_line(chart, line, number, x_axis, axis, row=row, col=1, showlegend=shows)
-    return chart
-
-
 def histogram_chart(results: xr.Dataset, summary: xr.Dataset, shown: list[Shown]) -> Any:
     """Return the distributions of the shown quantities, a panel for each."""
     from plotly.subplots import make_subplots
-
-    from gearlube.report.charts import COLOURS
 
     chart = make_subplots(
         rows=len(shown),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gearlube.report.charts import COLOURS, Axis, Line, add_line, add_stack, panels
+from gearlube.report.charts import COLOURS, Axis, add_stack, panels
 from gearlube.report.films import model_of
 from gearlube.report.inputs import origin_of
 from gearlube.report.numbers import number_text, quantity_text
@@ -25,7 +25,14 @@ from gearlube.report.parts import (
     Report,
     Table,
 )
-from gearlube.studies.bearing.figures import LAW_NAMES, axis_values, drawn_places, place_words
+from gearlube.report.pictures import shown
+from gearlube.studies.bearing.figures import (
+    LAW_NAMES,
+    axis_values,
+    drawn_places,
+    place_words,
+    torque_of_laws,
+)
 from gearlube.studies.bearing.summary import bearing_summary, bearing_warnings, error_sentences
 from gearlube_core.film_model.model import ROLLER
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
@@ -198,12 +205,12 @@ def bearing_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
         findings=findings(dataset),
         numbers=numbers(dataset),
         figures=[
-            Figure(
-                name="torque",
-                title="Torque by all laws",
-                caption="Thick line: the first law; dashed: the ends of its error bar (95 %). A "
-                "law inside these lines agrees with it as far as either is known.",
-                chart=law_chart(dataset),
+            shown(
+                "torque",
+                "Torque by all laws",
+                "Band: error bar of the first law (95 %). A law inside it agrees with the first as "
+                "far as either is known.",
+                torque_of_laws(dataset),
             ),
             Figure(
                 name="parts",
@@ -222,24 +229,6 @@ def bearing_report(dataset: xr.Dataset, inputs: Sequence[Input] = ()) -> Report:
         facts=[("source of the bearing", str(attributes["source"]))],
         files=("bearing.nc", "bearing.csv", "figures/"),
     )
-
-
-def law_chart(dataset: xr.Dataset) -> Any:
-    """Return the torque of every law along the longest axis, a panel for each of some places."""
-    along, places = drawn_places(dataset)
-    axis, x = _AXES[along], axis_values(along, dataset[along].values)
-    chart = panels([place_words(p) or "torque" for p in places], axis, [_TORQUE] * len(places))
-    for row, place in enumerate(places, 1):
-        at = dataset.sel(place)
-        for number, law in enumerate(dataset["law"].values):
-            one = at.sel(law=law)
-            line = Line(name=LAW_NAMES[str(law)], x=x, y=one["torque"].values)
-            add_line(chart, line, number, axis, _TORQUE, row=row, col=1, showlegend=row == 1)
-            for end in ("low", "high") if number == 0 else ():
-                bar = Line(name=f"error bar, {end} end", x=x, y=one[f"torque_{end}"].values, dash=1)
-                add_line(chart, bar, 0, axis, _TORQUE, row=row, col=1, showlegend=row == 1)
-        chart.update_yaxes(rangemode="tozero", row=row, col=1)
-    return chart
 
 
 def part_chart(dataset: xr.Dataset) -> Any:

@@ -184,7 +184,7 @@ def _teeth(file: str, table: str, positions: int, frame: StudyRun, jobs: int | N
     frame.show(_orders(found))
     mesh = f"{pair_stem(found.flanks.file.name)}.nc"
     frame.written(mesh, "tooth_errors.png", note=" (mesh table)")
-    frame.finish(tooth_report(found.dataset))
+    frame.finish(tooth_report(found.dataset, frame.out / "tooth_errors.png"))
     logger.info("Next: gearlube sweep --mesh-table %s", frame.out / mesh)
 
 

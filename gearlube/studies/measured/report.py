@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from gearlube.report.charts import COLOURS, Axis, Line, heat_map, line_chart, panels
+from gearlube.report.charts import Axis, heat_map
 from gearlube.report.inputs import file_inputs
 from gearlube.report.parts import Column, Figure, Input, Report, Table
+from gearlube.report.pictures import kept_figure
 from gearlube.studies.measured.findings import (
     flank_findings,
     flank_numbers,
@@ -128,8 +128,8 @@ def _settings_table(flanks: xr.Dataset) -> Table:
     )
 
 
-def tooth_report(teeth: xr.Dataset) -> Report:
-    """Return the report of errors of single teeth."""
+def tooth_report(teeth: xr.Dataset, picture: Path) -> Report:
+    """Return the report of errors of single teeth; `picture` is the PNG of them."""
     attributes = teeth.attrs
     torques = ", ".join(f"{one:g}" for one in teeth["torque"].values)
     return Report(
@@ -140,15 +140,14 @@ def tooth_report(teeth: xr.Dataset) -> Report:
         findings=tooth_findings(teeth),
         numbers=tooth_numbers(teeth),
         figures=[
-            Figure(
-                name="orders",
-                title="Orders of the turns",
-                caption="Amplitudes added to the transmission error, by orders of each member's "
-                "turn, at the highest torque on the drive flanks. Sidebands are on both "
-                "sides of the mesh orders.",
-                chart=_order_chart(teeth),
+            kept_figure(
+                "tooth_errors",
+                "Added error over a turn, and orders of the turns",
+                "At the lowest and the highest torque on the drive flanks: the mean over all turns "
+                "after which the same teeth meet again. Sidebands are on both sides of the mesh "
+                "orders.",
+                picture,
             ),
-            *(_turn(teeth, member) for member in members_of(teeth)),
         ],
         tables=[
             *(_order_table(teeth, member) for member in members_of(teeth)),
@@ -165,49 +164,6 @@ def tooth_report(teeth: xr.Dataset) -> Report:
             "Orders above a quarter of the positions times the teeth are not kept.",
         ),
         files=(f"{pair_stem(attributes['name'])}.nc", "tooth_errors.nc", "tooth_errors.png"),
-    )
-
-
-def _top(teeth: xr.Dataset) -> int:
-    return int(np.argmax(teeth["torque"].values))
-
-
-def _order_chart(teeth: xr.Dataset) -> Any:
-    members = members_of(teeth)
-    y = Axis("amplitude", "µm", log=True)
-    titles = [
-        f"Orders of the {one}; mesh order {int(teeth.attrs[f'{one}_teeth'])}" for one in members
-    ]
-    figure = panels(titles, Axis("order"), [y] * len(members), height=300)
-    figure.update_xaxes(matches=None, showticklabels=True)
-    for row, member in enumerate(members, 1):
-        amplitude = teeth[f"{member}_amplitude"].isel(torque=_top(teeth))
-        figure.add_bar(
-            x=amplitude[f"{member}_order"].values,
-            y=_MICRO * amplitude.values,
-            marker_color=COLOURS[row - 1],
-            hovertemplate="%{y:.3g} µm, order %{x}<extra></extra>",
-            row=row,
-            col=1,
-        )
-    figure.update_layout(showlegend=False)
-    return figure
-
-
-def _turn(teeth: xr.Dataset, member: str) -> Figure:
-    count = int(teeth.attrs[f"{member}_teeth"])
-    levels = dict.fromkeys((int(np.argmin(np.abs(teeth["torque"].values))), _top(teeth)))
-    lines = []
-    for level in levels:
-        error = _MICRO * teeth["error"].isel(torque=level).values
-        own = error.reshape(-1, count, error.shape[1]).mean(axis=0).ravel()
-        place = np.arange(own.size) / own.size
-        lines.append(Line(name=f"{float(teeth['torque'][level]):g} N·m", x=place, y=own))
-    return Figure(
-        name=f"{member}_turn",
-        title=f"Added error over a turn of the {member}",
-        caption="The mean over all turns after which the same teeth meet again.",
-        chart=line_chart(lines, Axis(f"turns of the {member}"), Axis("added error", "µm")),
     )
 
 

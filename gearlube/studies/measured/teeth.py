@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from gearlube.report.pictures import save_picture
 from gearlube.studies.measured.run import tooth_errors
 from gearlube_core.errors import ParameterError
 from gearlube_core.hypoid_contact.mesh_cycle import CycleSettings
@@ -20,7 +21,7 @@ from gearlube_core.hypoid_geometry.measured.measured_flanks import (
 from gearlube_core.mesh_table.netcdf import read_mesh_table, write_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
 from gearlube_core.progress import Progress, no_progress
-from gearlube_core.storage.atomic_file import write_dataset, write_figure
+from gearlube_core.storage.atomic_file import write_dataset
 from gearlube_core.storage.file_names import pair_stem
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.units import labelled
@@ -122,7 +123,7 @@ def run_tooth_errors(
         folder.mkdir(parents=True, exist_ok=True)
         write_mesh_table(results.mesh_table, folder / f"{pair_stem(file.name)}.nc")
         write_dataset(results.dataset, folder / "tooth_errors.nc")
-        write_figure(tooth_errors(cycle, file.name), folder / "tooth_errors.png")
+        save_picture(tooth_errors(cycle, file.name), folder / "tooth_errors.png")
     return results
 
 
