@@ -133,35 +133,33 @@ def add_line(figure: Any, line: Line, number: int, x: Axis, y: Axis, **place: An
 
 def stack_chart(
     names: Sequence[str],
-    x: Sequence[float] | Sequence[str] | Array,
+    x: Sequence[float] | Array,
     parts: Array,
     x_axis: Axis,
     y_axis: Axis,
     *,
     kept: Sequence[bool] | Array | None = None,
     colours: Sequence[str] = COLOURS,
-    bars: bool = False,
 ) -> Any:
-    """Return parts that add up, of shape (parts, len(x)): as areas, or as bars.
+    """Return parts that add up, of shape (parts, len(x)), as areas.
 
     `kept` says which parts are drawn, `colours` the colour of each.
     """
     figure = empty_chart(x_axis, y_axis, 440)
-    add_stack(figure, names, x, parts, x_axis, y_axis, kept=kept, colours=colours, bars=bars)
+    add_stack(figure, names, x, parts, x_axis, y_axis, kept=kept, colours=colours)
     return figure
 
 
 def add_stack(
     figure: Any,
     names: Sequence[str],
-    x: Sequence[float] | Sequence[str] | Array,
+    x: Sequence[float] | Array,
     parts: Array,
     x_axis: Axis,
     y_axis: Axis,
     *,
     kept: Sequence[bool] | Array | None = None,
     colours: Sequence[str] = COLOURS,
-    bars: bool = False,
     **place: Any,
 ) -> None:
     """Add parts that add up to a chart, or to its panel row=, col=.
@@ -170,12 +168,11 @@ def add_stack(
     parts are drawn, `colours` the colour of each.
     """
     already = {one.legendgroup for one in figure.data}
-    where = list(x) if isinstance(x[0], str) else _small(x)
     for number, (name, values) in enumerate(zip(names, parts, strict=True)):
         if kept is not None and not kept[number]:
             continue
         shared: dict[str, Any] = {
-            "x": where,
+            "x": _small(x),
             "y": _small(np.nan_to_num(values)),
             "name": name,
             "legendgroup": name,
@@ -185,17 +182,14 @@ def add_stack(
             **place,
         }
         colour = colours[number % len(colours)]
-        if bars:
-            figure.add_bar(marker_color=colour, **shared)
-        else:
-            figure.add_scatter(
-                stackgroup=f"all {place.get('row', 1)}",
-                mode="lines",
-                line={"width": 0.5, "color": colour},
-                fillcolor=colour,
-                **shared,
-            )
-    figure.update_layout(barmode="stack", showlegend=True)
+        figure.add_scatter(
+            stackgroup=f"all {place.get('row', 1)}",
+            mode="lines",
+            line={"width": 0.5, "color": colour},
+            fillcolor=colour,
+            **shared,
+        )
+    figure.update_layout(showlegend=True)
 
 
 def heat_map(
@@ -205,20 +199,14 @@ def heat_map(
     axes: tuple[Axis, Axis, Axis],
     *,
     limits: tuple[float, float] | None = None,
-    contours: bool = False,
     height: int = 460,
 ) -> Any:
     """Return a map of values of shape (len(y), len(x)); `axes` name x, y and the colour.
 
-    Parameters
-    ----------
-    limits
-        Ends of the colour scale; by default those of the values.
-    contours
-        Draw levels with numbers in place of cells.
+    `limits` are the ends of the colour scale, by default those of the values.
     """
     figure = empty_chart(axes[0], axes[1], height)
-    add_map(figure, x, y, values, axes, limits=limits, contours=contours)
+    add_map(figure, x, y, values, axes, limits=limits)
     return figure
 
 
@@ -234,7 +222,10 @@ def add_map(
     bar: bool = True,
     **place: Any,
 ) -> None:
-    """Add a map to a chart, or to its panel row=, col=; `bar`: with its scale of colours."""
+    """Add a map to a chart, or to its panel row=, col=; `bar`: with its scale of colours.
+
+    `contours`: levels with numbers in place of cells.
+    """
     import plotly.graph_objects as go
 
     low, high = limits or (float(np.nanmin(values)), float(np.nanmax(values)))
