@@ -17,8 +17,8 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_group
 
-from gearlube.cli.input_files import read_files_first
 from gearlube.cli.option_groups import MultiValueCommand, group_options
+from gearlube.input_files import read_files_first
 
 _MARKUP: Literal["markdown"] = "markdown"  # of help texts; the other kind would swallow [units]
 
