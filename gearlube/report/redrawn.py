@@ -50,10 +50,14 @@ def redrawn(figure: Any) -> Any:
 
     axes = [ax for ax in figure.axes if not hasattr(ax, "_colorbar") and ax.get_visible()]
     axes = [ax for ax in axes if ax.axison and (ax.has_data() or len(_twins(ax)) == 1)]
+    second = [ax for i, ax in enumerate(axes) if set(_twins(ax)) & set(axes[:i])]
+    first = [ax for ax in axes if ax not in second]
     chart = go.Figure(layout={"template": None, "height": int(_INCH * figure.get_figheight()) + 60})
     try:
-        _lay_out(chart, axes)
-        for number, ax in enumerate(axes, 1):
+        _lay_out(chart, first)
+        for number, ax in enumerate(second, len(first) + 1):
+            _lay_over(chart, first, ax, number)
+        for number, ax in enumerate([*first, *second], 1):
             _add_panel(chart, ax, "" if number == 1 else str(number))
     except PictureOnly:
         return None
@@ -84,9 +88,8 @@ def _lay_out(chart: Any, axes: Sequence[Any]) -> None:
         raise PictureOnly
     specs = [ax.get_subplotspec().get_topmost_subplotspec() for ax in axes]
     for ax, spec in zip(axes, specs, strict=True):
-        twins = len([one for one in _twins(ax) if one in axes]) > 1
         scales = {ax.get_xscale(), ax.get_yscale()}
-        if ax.name != "rectilinear" or twins or not scales <= {"linear", "log"}:
+        if ax.name != "rectilinear" or not scales <= {"linear", "log"}:
             raise PictureOnly
         if spec.get_gridspec() is not specs[0].get_gridspec() or specs.count(spec) > 1:
             raise PictureOnly
@@ -133,14 +136,34 @@ def _twins(ax: Any) -> list[Any]:
     return list(ax._twinned_axes.get_siblings(ax))
 
 
+def _lay_over(chart: Any, first: Sequence[Any], ax: Any, number: int) -> None:
+    """Give axes number `number` the place of their twin, with the scale of y on the right."""
+    at = next(i for i, one in enumerate(first) if one in _twins(ax))
+    own = str(at + 1) if at else ""
+    columns = chart.layout.meta["columns"]
+    if columns > 1 or not ax.get_shared_x_axes().joined(ax, first[at]):
+        raise PictureOnly  # no room between columns
+    below = chart.layout[f"xaxis{own}"].to_plotly_json()
+    below |= {"overlaying": f"x{own}", "matches": f"x{own}", "visible": False}
+    chart.layout[f"xaxis{number}"] = below | {"anchor": f"y{number}"}
+    chart.layout[f"yaxis{number}"] = {
+        **_axis(ax.yaxis, ax.get_ylim(), ax.get_ylabel(), _LETTERS),
+        "overlaying": f"y{own}",
+        "anchor": f"x{own}",
+        "side": "right",
+        "showgrid": False,
+    }
+
+
 def _axis(axis: Any, limits: tuple[float, float], label: str, letters: int) -> dict[str, Any]:
     from matplotlib.ticker import FixedLocator, LogFormatter, ScalarFormatter
 
     log = axis.get_scale() == "log"
     lines = [part for line in label.split("\n") for part in wrap(plain(line), letters)]
     ends = np.log10(limits) if log else np.asarray(limits)
+    ink = None if axis.label.get_color() == "black" else colour(axis.label.get_color())
     found: dict[str, Any] = {
-        "title": {"text": "<br>".join(lines)},
+        "title": {"text": "<br>".join(lines), "font": {"color": ink}},
         "type": "log" if log else "linear",
         "range": [float(one) for one in ends],
     }

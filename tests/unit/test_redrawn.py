@@ -80,13 +80,34 @@ def test_names_beside_the_axes_have_room():
     assert chart.layout.margin.r > 40  # px, for six letters
 
 
-@pytest.mark.parametrize("draw", ["contourf", "imshow", "twinx", "polar"])
+@pytest.mark.parametrize("draw", ["contourf", "imshow", "twiny", "polar"])
 def test_what_only_a_picture_shows_is_left_to_it(draw):
     figure = Figure()
     ax = figure.subplots(subplot_kw={"projection": "polar"} if draw == "polar" else {})
     if draw in ("contourf", "imshow"):
         getattr(ax, draw)([[1.0, 2.0], [3.0, 4.0]])
-    elif draw == "twinx":
+    elif draw == "twiny":
         ax.plot(X, X)
-        ax.twinx().plot(X, X)
+        ax.twiny().plot(X, X)
     assert redrawn(figure) is None
+
+
+def test_a_second_scale_stands_on_the_right_of_its_panel():
+    figure = Figure()
+    panels = figure.subplots(2, 1)
+    for ax in panels:
+        ax.plot(X, X, label="pressure")
+        film = ax.twinx()
+        film.plot(X, 2.0 * X, label="film")
+        film.set_ylabel("film [µm]", color="#D55E00")
+        film.set_ylim(0.0, 5.0)
+    chart = redrawn(figure)
+    places = {(one.name, one.xaxis, one.yaxis) for one in chart.data}
+    films = {("film", "x3", "y3"), ("film", "x4", "y4")}
+    assert places == {("pressure", "x", "y"), ("pressure", "x2", "y2"), *films}
+    scale = chart.layout.yaxis4
+    assert (scale.overlaying, scale.anchor, scale.side) == ("y2", "x2", "right")
+    assert (scale.title.text, scale.title.font.color) == ("film [µm]", "#d55e00")
+    assert scale.range == (0.0, 5.0)
+    assert chart.layout.xaxis4.matches == "x2"  # zooms with it
+    assert chart.layout.meta["places"] == [[0, 0], [1, 0]]

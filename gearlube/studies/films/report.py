@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import xarray as xr
 
-from gearlube.report.charts import Axis, Line, add_line, panels
 from gearlube.report.inputs import remark_findings
 from gearlube.report.numbers import number_text
 from gearlube.report.parts import Cell, Column, Input, Report, Table
 from gearlube.report.pictures import pictured
 from gearlube.studies.films.figures.catalogue import drawn_figures
-from gearlube.studies.films.figures.parts import HEADROOM, shown_range
 from gearlube.studies.films.film_formulas import ROUGHNESS
 from gearlube.studies.films.findings import STEADY, findings, numbers
 from gearlube.studies.films.hypoid.summary import ratio_rows
 from gearlube.studies.films.results import SOLUTION, summary_rows
-
-_PRESSURE = Axis("pressure", "GPa")
-_FILM = Axis("film", "µm")
-_SIDE = 1.6  # half widths that are shown
 
 _KINDS = {
     "line": "line contact",
@@ -87,7 +79,7 @@ def film_report(dataset: xr.Dataset, figures: Path) -> Report:
         findings=[*said[:1], *remark_findings(of), *said[1:]],
         numbers=numbers(dataset),
         main_figures=[name for name in catalogue if name != "residuals"],
-        figures=pictured(catalogue, figures, _main_charts(dataset)),
+        figures=pictured(catalogue, figures),
         tables=_tables(dataset),
         inputs=film_inputs(dataset),
         limits=_LIMITS,
@@ -138,79 +130,3 @@ def _tables(dataset: xr.Dataset) -> list[Table]:
     else:
         return []
     return [Table(title="Summary", columns=[Column(name) for name in columns], rows=rows)]
-
-
-def _main_charts(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return charts in place of the figures with two scales, by name."""
-    drawn = {
-        "line": ("profile", _line), "point": ("sections", _point), "helical": ("along", _along)
-    }  # fmt: skip
-    kind = dataset.attrs["contact"]
-    if kind not in drawn:
-        return {}
-    name, draw = drawn[kind]
-    return {name: draw(dataset)}
-
-
-def _two(
-    titles: Sequence[str],
-    x: Axis,
-    lines: Sequence[tuple[int, Line]],
-) -> Any:
-    """Return lines in panels, each with the number of its panel from 1."""
-    y = (_PRESSURE, _FILM)
-    figure = panels(titles, x, y, 280)
-    for number, (row, line) in enumerate(lines):
-        add_line(figure, line, number, x, y[row - 1], row=row, col=1)
-    return figure
-
-
-def _limits(figure: Any, dataset: xr.Dataset, low_high: tuple[float, float] | None = None) -> Any:
-    """Show the loaded zone, and films up to a few central ones: outside the gap grows fast."""
-    top = 1e6 * HEADROOM * dataset.attrs["central_film"]
-    figure.update_yaxes(range=[0.0, top], row=2, col=1)
-    if low_high is not None:
-        figure.update_xaxes(range=list(low_high))
-    return figure
-
-
-def _line(dataset: xr.Dataset) -> Any:
-    x = 1e3 * dataset["x"].values
-    figure = _two(
-        ("Pressure", "Film"),
-        Axis("along the motion", "mm"),
-        [
-            (1, Line(name="pressure", x=x, y=1e-9 * dataset["pressure"].values)),
-            (1, Line(name="dry contact", x=x, y=1e-9 * dataset["hertz_pressure"].values, dash=2)),
-            (2, Line(name="film", x=x, y=1e6 * dataset["film"].values)),
-        ],
-    )
-    side = _SIDE * dataset.attrs["half_width"]
-    return _limits(figure, dataset, shown_range(dataset, "x", side, 0.01))
-
-
-def _point(dataset: xr.Dataset) -> Any:
-    lines = []
-    for group, (along, other) in enumerate((("x", "y"), ("y", "x"))):
-        section = dataset.sel({other: 0.0}, method="nearest")
-        place = 1e3 * section[along].values
-        for row, name, scale in ((1, "pressure", 1e-9), (2, "film", 1e6)):
-            values = scale * section[name].values
-            label = f"{name} along {along}"
-            lines.append((row, Line(name=label, x=place, y=values, group=group)))
-    figure = _two(("Pressure", "Film"), Axis("from the centre", "mm"), lines)
-    side = _SIDE * dataset.attrs["semi_axis_x"]
-    return _limits(figure, dataset, shown_range(dataset, "x", side, 0.01))
-
-
-def _along(dataset: xr.Dataset) -> Any:
-    y = 1e3 * dataset["y"].values
-    figure = _two(
-        ("Largest pressure of each section", "Smallest film of each section"),
-        Axis("along the line", "mm"),
-        [
-            (1, Line(name="pressure", x=y, y=1e-9 * dataset["pressure"].max("x").values)),
-            (2, Line(name="film", x=y, y=1e6 * dataset["film"].min("x").values)),
-        ],
-    )
-    return _limits(figure, dataset)
