@@ -22,7 +22,7 @@ from docs.resonance.decisions import flank_decisions
 from docs.resonance.evidence import Both, Evidence, gather, kept
 from docs.resonance.numerics import agreements, linear_limit
 from gearlube.plotting.style import GREY, SERIES, house_style, new_figure
-from gearlube.studies.resonance.figures import save_resonance_figures
+from gearlube.studies.resonance.figures.catalogue import save_resonance_figures
 from gearlube.studies.resonance.run import run_resonance
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube_core.periodic.branch import Kind

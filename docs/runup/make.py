@@ -12,7 +12,7 @@ from docs.page import IMAGES, Page
 from drivetrain.axle_file.axle_file import CarAxle
 from drivetrain.axle_file.read_axle import read_axle
 from gearlube.studies.runup.animation.dataset import animate_ramp
-from gearlube.studies.runup.figures import CATALOGUE
+from gearlube.studies.runup.figures.catalogue import CATALOGUE
 from gearlube.studies.runup.figures.moving.parts import MOVING
 from gearlube.studies.runup.findings import findings
 from gearlube.studies.runup.run import run_runup

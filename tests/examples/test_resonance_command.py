@@ -11,7 +11,7 @@ from gearlube import command as cli
 from gearlube.cli.exit_codes import BAD_ARGUMENT, FAILED, INTERRUPTED
 from gearlube.studies.resonance import run as resonance_run
 from gearlube.studies.resonance import study
-from gearlube.studies.resonance.figures import RESONANCE_CATALOGUE
+from gearlube.studies.resonance.figures.catalogue import RESONANCE_CATALOGUE
 from gearlube_core.dynamics.hypoid_torsional.synthetic_mesh import synthetic_mesh
 from gearlube_core.errors import ConvergenceError
 from gearlube_core.mesh_table.netcdf import write_mesh_table

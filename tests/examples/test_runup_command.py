@@ -6,7 +6,7 @@ from typer.testing import CliRunner
 import gearlube as gl
 from gearlube.command import app
 from gearlube.studies.runup.animation.dataset import load_animation
-from gearlube.studies.runup.figures import CATALOGUE
+from gearlube.studies.runup.figures.catalogue import CATALOGUE
 from gearlube.studies.runup.run import load_runup
 
 

@@ -11,8 +11,8 @@ import xarray as xr
 from gearlube.plotting.style import cell_edges
 from gearlube.report.page import report_html
 from gearlube.studies.sweep.datasets import merge, summary_table
-from gearlube.studies.sweep.figures import CATALOGUE
 from gearlube.studies.sweep.figures.bubbles import all_lines, highest, lines_of, spectrum_bubbles
+from gearlube.studies.sweep.figures.catalogue import CATALOGUE
 from gearlube.studies.sweep.figures.orders import DTE, default_top
 from gearlube.studies.sweep.peaks import harmonic_amplitude
 from gearlube.studies.sweep.point import failed_point, summarise

@@ -13,8 +13,7 @@ import xarray as xr
 from gearlube.report.page import write_report
 from gearlube.studies.resonance.cycle_dataset import cycle_dataset
 from gearlube.studies.resonance.datasets import resonance_dataset
-from gearlube.studies.resonance.figures import save_resonance_figures
-from gearlube.studies.resonance.figures.catalogue import load_curves
+from gearlube.studies.resonance.figures.catalogue import load_curves, save_resonance_figures
 from gearlube.studies.resonance.response import Response
 from gearlube.studies.resonance.settings import ResonanceSettings
 from gearlube.studies.resonance.study import study_resonance

@@ -17,7 +17,7 @@ from gearlube.report.page import write_report
 from gearlube.report.parts import INFERRED, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import shown
 from gearlube.studies.runup import levels
-from gearlube.studies.runup.figures import CATALOGUE
+from gearlube.studies.runup.figures.catalogue import CATALOGUE
 from gearlube.studies.runup.figures.moving.parts import moving_figures
 from gearlube.studies.runup.findings import critical_speeds, findings, numbers, peaks
 from gearlube.studies.runup.run import FILES

@@ -151,7 +151,7 @@ def sweep(
         given_preload,
         settings_of,
     )
-    from gearlube.studies.sweep.figures import CATALOGUE, ESSENTIAL
+    from gearlube.studies.sweep.figures.catalogue import CATALOGUE, ESSENTIAL
     from gearlube.studies.sweep.findings import findings
     from gearlube.studies.sweep.report import write_sweep_report
     from gearlube.studies.sweep.settings import (

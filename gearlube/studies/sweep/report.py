@@ -16,7 +16,7 @@ from gearlube.report.page import write_report
 from gearlube.report.parts import ASSUMED, Cell, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import shown
 from gearlube.studies.sweep.datasets import SEPARATION_MEANINGS
-from gearlube.studies.sweep.figures import CATALOGUE, Entry
+from gearlube.studies.sweep.figures.catalogue import CATALOGUE, Entry
 from gearlube.studies.sweep.findings import findings
 from gearlube.studies.sweep.peaks import (
     ORDERS,
