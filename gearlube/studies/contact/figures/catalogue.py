@@ -246,8 +246,8 @@ CONTACT_CATALOGUE = {
     "load_share": Picture(
         _load_shares,
         "A tooth pair from entry to exit",
-        "Share of the torque that one pair carries, and its highest pressure. Pressures of sharp "
-        "edges are left out, because they have no finite value.",
+        "Share of the torque that one pair carries, and its highest pressure. In the grey zone a "
+        "sharp edge presses: such a pressure is no number, it grows with finer cells.",
     ),
     "stiffness": Picture(
         _stiffness_and_radii,
