@@ -74,7 +74,7 @@ def usable_words(inside: Array, axes: Sequence[tuple[Array, str]]) -> str:
         edges = np.flatnonzero(np.diff(nowhere)) + 1
         runs = zip(np.split(values, edges), np.split(nowhere, edges), strict=True)
         bad += [_span(run, unit) for run, out in runs if out[0]]
-    rest = f"not for {' or '.join(bad)}" if bad else "not for all points beyond"
+    rest = f"not for {' or '.join(bad)}" if bad else "beyond it some points are extrapolated"
     return f"Usable for {', '.join(good)} ({share:.0f} % of the points), {rest}."
 
 

@@ -128,7 +128,11 @@ class HelicalGearFile(InputFile):
         try:
             self.modified_pair()
         except ParameterError as reason:
-            raise ValueError(f"In SI units: {str(reason).removesuffix('.')}") from None
+            text = str(reason).partition(" Give metres")[0].removesuffix(".")
+            raise ValueError(
+                f"In SI units: {text}. With other teeth, module or helix angle the diameters of "
+                "tip and root and the centre distance change too"
+            ) from None
         return self
 
     def helical_pair(self) -> HelicalPair:

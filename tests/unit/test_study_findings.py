@@ -336,7 +336,7 @@ def test_cycle_with_draws_has_their_error_bars_and_what_left_a_range(a_cycle):
         end_temperature_low=22.0,
         end_temperature_high=31.0,
         time_outside_range=("range", [0.25]),
-        energy_outside_range=("range", [0.4]),
+        energy_outside_range=("range", [0.625]),  # 2.5 of 4 kJ
         outside_range=(("step", "range"), [[0.0], [1.0], [0.0]]),  # at 72 km/h
     ).assign_attrs(ranges_left="torque (range.torque)", trace_notes="A note.\nAnother.")
     lost, oil, _, left, *notes = cycle.findings(drawn)
@@ -346,8 +346,8 @@ def test_cycle_with_draws_has_their_error_bars_and_what_left_a_range(a_cycle):
         (NOTE, f"{draws} it ends between", "20, 25 °C, 95 %, 22, 31 °C, 19 °C"),
         (
             WARNING,
-            "Up to … of the energy is lost outside … Usable for … not for … of the running time",
-            "40 %, 70 km/h, 0 %, 100 %, 25 %, 40 %",
+            "of the energy is lost outside … Usable for … not for … of the running time",
+            "62 %, 70 km/h, 0 %, 100 %, 25 %, 62 %",
         ),
         (WARNING, "A note.", ""),
         (WARNING, "Another.", ""),
@@ -371,7 +371,7 @@ def test_cycle_with_draws_has_their_error_bars_and_what_left_a_range(a_cycle):
         "efficiency as one number,0.833925,1,,",  # 20.0855 kJ to the wheels of 24.0855 kJ
         "oil temperature at the end,25,degC,22,31",
         "share of the running time outside range.torque,0.25,1,,",
-        "share of the energy lost outside range.torque,0.4,1,,",
+        "share of the energy lost outside range.torque,0.625,1,,",
     ]
     assert [row[3:] for row in summary_rows(a_cycle)][13:15] == [("", ""), ("23", "29")]
 

@@ -38,6 +38,7 @@ from gearlube.report.parts import (
     Table,
 )
 from gearlube.studies.drive_cycle.tables import range_sentence
+from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER
 
 _DRAWN = "efficiency_low"  # a variable of cycles with draws of all uncertain data
@@ -198,20 +199,25 @@ def _ranges(dataset: xr.Dataset) -> Finding:
     left = range_sentence(dataset)
     if not left:
         return Finding(GOOD, "No step left the range of a formula or table.")
-    share = 100.0 * float(dataset["energy_outside_range"].max())
+    lost, outside = _lost_outside(dataset)
+    share = 100.0 * float(outside.sum() / max(lost.sum(), 1e-9))
     return Finding(
         WARNING,
-        f"Up to {number_text(share, 2)} % of the energy is lost outside the range of a formula or "
-        "table.",
+        f"{number_text(share, 2)} % of the energy is lost outside the range of a formula or table.",
         f"{_usable(dataset)} {left}",
     )
+
+
+def _lost_outside(dataset: xr.Dataset) -> tuple[Array, Array]:
+    """Return the energy lost in each step, and the part of it that is lost outside a range."""
+    lost = dataset["loss"].sum("source").values * dataset["duration"].values
+    return lost, lost * dataset["outside_range"].max("range").values
 
 
 def _usable(dataset: xr.Dataset) -> str:
     """Return up to which speed at most a tenth of the loss is extrapolated, as a sentence."""
     speed = dataset["vehicle_speed"].values
-    lost = dataset["loss"].sum("source").values * dataset["duration"].values
-    outside = lost * (dataset["outside_range"] > 0.0).any("range").values
+    lost, outside = _lost_outside(dataset)
 
     def share(where: Any) -> float:
         return float(outside[where].sum() / max(lost[where].sum(), 1e-9))
