@@ -124,20 +124,27 @@ def progress_on(name: str, parts: int = _PER_MILLE) -> Iterator[Progress]:
 
 
 class _ProgressLines:
-    """Progress as lines of text, for files and pipes."""
+    """Progress as lines of text, for files and pipes.
+
+    Time before the first share of the work, for preparation, does not count for the time left.
+    """
 
     def __init__(self, name: str) -> None:
         self._name = name
-        self._began = self._last = time.monotonic()
+        self._began = self._last = self._ready = time.monotonic()
         self._tenths = 0
 
     def report(self, share: float, sentence: str) -> None:
         now, tenths = time.monotonic(), int(10.0 * share + 1e-9)
+        if share == 0.0:
+            self._ready = now
         if tenths <= self._tenths and now - self._last < _SILENCE:
             return
         self._tenths, self._last = max(tenths, self._tenths), now
         spent = now - self._began
-        left = f", about {spent / share - spent:.0f} s left" if 0.0 < share < 1.0 else ""
+        left = ""
+        if 0.0 < share < 1.0:
+            left = f", about {(now - self._ready) * (1.0 - share) / share:.0f} s left"
         _LOGGER.info(
             "%s %.0f %% after %.0f s%s: %s", self._name, 100.0 * share, spent, left, sentence
         )

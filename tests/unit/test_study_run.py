@@ -120,3 +120,13 @@ def test_a_report_within_a_command_says_the_command(tmp_path, monkeypatch):
     assert "gearlube map &#39;my axle.toml&#39;" in (tmp_path / "report.html").read_text()
     write_report(Report(study="map", title="Map"), tmp_path)
     assert "my axle.toml" not in (tmp_path / "report.html").read_text()
+
+
+def test_time_left_does_not_count_preparation(monkeypatch, caplog):
+    """60 s of preparation, then a fifth of the work in 10 s: four fifths are left."""
+    times = iter([0.0, 60.0, 70.0])
+    monkeypatch.setattr("gearlube.cli.study_run.time.monotonic", lambda: next(times))
+    with caplog.at_level(logging.INFO), progress_on("sweep") as report:
+        report(0.0, "starting")
+        report(0.2, "a point")
+    assert caplog.messages[-1] == "sweep 20 % after 70 s, about 40 s left: a point"
