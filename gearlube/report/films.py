@@ -66,10 +66,10 @@ def hot_film(
     return [
         Finding(
             WARNING,
-            f"The hottest flank film, {float(worst):.0f} °C at {where(worst)}, is extrapolated: "
-            f"the oil data end at {oil_end:.0f} °C.",
-            "Read it as hotter than the data, not as a temperature. Film and friction follow the "
-            f"same laws of the oil beyond their data, at {share:.0f} % of the points. "
+            f"Flank films are hotter than the oil data, which end at {oil_end:.0f} °C, at "
+            f"{share:.0f} % of the points.",
+            "There film and friction are extrapolated by the same laws of the oil. The hottest is "
+            f"at {where(worst)}: {float(worst):.0f} °C by these laws, which is no prediction. "
             + (usable_words(~beyond.transpose(*axes).values, grid) if axes else ""),
         )
     ]

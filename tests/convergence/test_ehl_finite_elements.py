@@ -347,11 +347,7 @@ def element_film(problem, start, compliance=None):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("radius_y", "load", "angle", "sliding"),
-    [
-        pytest.param(0.01, 20.0, 0.0, None, marks=pytest.mark.slow),
-        pytest.param(0.1, 100.0, 0.0, None, marks=pytest.mark.slow),
-        (0.01, 20.0, 0.5, (0.3, 0.3)),
-    ],
+    [(0.01, 20.0, 0.0, None), (0.1, 100.0, 0.0, None), (0.01, 20.0, 0.5, (0.3, 0.3))],
     ids=["round", "ten to one", "Eyring at an angle"],
 )
 def test_films_of_elements_and_differences_meet_at_refinement(radius_y, load, angle, sliding):

@@ -331,3 +331,20 @@ def test_the_command_refuses_cooling_that_cannot_be(tmp_path, caplog, more, word
     assert ended.exit_code == 2
     assert words in caplog.text
     assert not out.exists()
+
+
+@pytest.mark.parametrize("field", ["pinion_torque", "torques"])
+def test_a_torque_that_no_flank_carries_is_refused(field):
+    """p_0 = (w E/(2 pi (1 - nu^2) R))^0.5 of two steel cylinders, E = 210 GPa, nu = 0.3."""
+    pair = SETTINGS.file.helical_pair()
+    first, whole, cosine = pair.pitch_point, pair.tangent_length, math.cos(pair.base_helix_angle)
+    radius = first * (whole - first) / whole / cosine
+    line_load = 4e9**2 * 2.0 * math.pi * 0.91 * radius / 210e9
+    most = line_load * pair.mean_contact_length * pair.pinion_base_radius * cosine
+
+    def with_torque(value):
+        return replace(SETTINGS, **{field: (value,) if field == "torques" else value})
+
+    with_torque(0.999 * most)
+    with pytest.raises(ParameterError, match=f"{field} must be .*more than 4 GPa"):
+        with_torque(1.001 * most)

@@ -97,7 +97,12 @@ def test_a_ramp_has_its_known_key_numbers_and_findings():
         ("pinion speed there, order 3", 1000.0, "rpm", "1000"),
         ("largest transmission error, all frequencies", 3.1, "µm rms", "3.10"),
         ("critical speeds of orders 1 to 3 within the ramp", 2.0, "", "2"),
-        ("margin of the loudest order to the next critical speed", 10.0, "%", "10"),
+        (
+            "from the end of the ramp to the next critical speed of the loudest order",
+            10.0,
+            "%",
+            "10",
+        ),
         ("time without contact", 1.3, "%", "1.3"),
         ("loss at the fast end", 140.0, "W", "140"),
     ]
@@ -202,3 +207,9 @@ def test_the_report_of_a_ramp_says_what_ran():
         "Coast-down: largest bearing forces of mesh order 1",
     ]
     assert both.numbers[-1].value == 14.0  # the first tenth of a coast-down is the fastest
+
+
+def test_a_peak_beyond_the_ramp_is_explained_by_the_slip_of_the_tyres():
+    short = ramp().assign(mode_speed=("mode_speed", np.array([1000.0, 1480.0]) * RPM))
+    said = [one[0].detail for one in (findings(ramp()), findings(short))]  # the peak: 1500 rpm
+    assert ["tyres slip" in one for one in said] == [False, True]

@@ -92,7 +92,7 @@ def test_loss_map_has_its_known_key_numbers_findings_and_tables(a_map):
     assert_numbers(loss_map.numbers(a_map), numbers)
     findings = [
         (NOTE, "mean efficiency … its losses are known to … bearing drag 30 %, viscosity 10 %",
-         "98.4 %, −30, +40 %, 95 %, 99.0 %, 100 N·m, 2000 rpm, 80 °C, 30 %, 10 %"),
+         "98.4 %, −30, +40 %, 95 %, 99.0 %, 100 N·m, 2000 rpm, 80 °C, 30 %, 10 %, 95 %"),
         (NOTE, "largest loss is … flank friction (fluid) … bearing drag",
          "429 W, 100 N·m, 2000 rpm, 40 °C, 98 %, 2 %"),
         (NOTE, "Not modelled: windage", ""),
@@ -101,10 +101,12 @@ def test_loss_map_has_its_known_key_numbers_findings_and_tables(a_map):
         (NOTE, "Warming the oil … lowers the mean loss torque", "40, 80 °C, 50 %"),
         (WARNING, "smallest film ratio … below",
          "0.50, 100 N·m, 1000 rpm, 80 °C, 1, 8 %"),
-        (WARNING, "hottest flank film … extrapolated",
-         "150 °C, −50 N·m, 2000 rpm, 40 °C, 100 °C, 8 %"),
+        (WARNING, "hotter than the oil data … extrapolated … no prediction",
+         "100 °C, 8 %, −50 N·m, 2000 rpm, 40 °C, 150 °C"),
         (GOOD, "No point left", ""),
     ]  # fmt: skip
+    rough = loss_map.findings(a_map.assign_attrs(draws=10))[0].detail
+    assert rough.endswith("The ends come from 10 draws, which is rough: take 60 or more.")
     assert_findings(loss_map.findings(a_map), findings)
     heads = ["torque [N·m]", "1000 rpm [N·m]", "2000 rpm [N·m]"]
     tables = {

@@ -10,7 +10,8 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option, check_within
-from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015
+from gearlube_core.contact.hertz import line_mean_pressure
+from gearlube_core.contact.solid import STEEL_MOHAMMADPOUR_2015, contact_modulus
 from gearlube_core.dynamics.helical_pair.gear_file_pair import (
     constant_density_mesh,
     gear_file_film_model,
@@ -42,6 +43,8 @@ PARTS = ("all", "contact", "dynamics", "geometry", "losses")
 RPM = math.pi / 30.0  # rad/s
 LINE_DENSITY = Number("N/m2", 1e7, 1e13, "About 1.3e10 N/m2 is usual for steel.")
 
+# Pa; case-hardened flanks take 1.6 times 1.65 GPa for a few cycles [iso_6336_2; iso_6336_5]
+_MOST_PRESSURE = 4e9
 HARMONICS = 15  # [he_2007 sec. 6]
 SHOWN_MU = (0.01, 0.1)  # [he_2007], figures 6 to 8
 LOAD_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)  # of the pinion torque
@@ -166,6 +169,7 @@ class HelicalSettings:
                     f"{self.density:g} N/m2. Leave it out, or take mesh density."
                 )
             LINE_DENSITY.check("density", self.density)
+        _check_pressure(self)
         if self.with_contact:
             self.cycle()
         low, high = 0.999 * self.load_steps[0], 1.001 * self.load_steps[-1]
@@ -290,6 +294,23 @@ def quick_settings(settings: HelicalSettings) -> HelicalSettings:
         separation_speeds=min(settings.separation_speeds, 60),
         body=replace(settings.body, condensation=_COARSE),
     )
+
+
+def _check_pressure(settings: HelicalSettings) -> None:
+    """Raise ParameterError if the largest pressure of even lines at the pitch point is too high."""
+    pair = settings.file.helical_pair()
+    solid = settings.film().solid
+    twist = math.cos(pair.base_helix_angle)
+    radius = pair.pitch_point * (1.0 - pair.pitch_point / pair.tangent_length) / twist
+    line_load = 1.0 / (pair.pinion_base_radius * twist * pair.mean_contact_length)  # of 1 N.m
+    of_one = 4.0 / math.pi * line_mean_pressure(line_load, radius, contact_modulus(solid, solid))
+    most = (_MOST_PRESSURE / of_one) ** 2
+    cure = "It would press the flanks with more than 4 GPa. Check the unit: N.m at the pinion."
+    for name, value in (
+        ("pinion_torque", settings.pinion_torque),
+        ("torques", settings.load_steps[-1]),
+    ):
+        check_within(name, value, 0.0, most, "N.m", cure)
 
 
 _ALL_OUTSIDE = 0.999  # of the load: the film model does not apply

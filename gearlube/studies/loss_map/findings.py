@@ -30,6 +30,7 @@ from gearlube_core.arrays import Array
 from gearlube_core.film_model.model import FLANK, ROLLER
 
 _NAMED = 3  # uncertain inputs that are named one by one
+_FEW_DRAWS = 40  # below them not one of 95 % lies beyond an end
 
 
 def findings(dataset: xr.Dataset) -> list[Finding]:
@@ -122,7 +123,12 @@ def _answer(dataset: xr.Dataset) -> list[Finding]:
             f"{input_words(name)} {100.0 * swing:.0f} %"
             for name, swing in list(mean_swings(dataset).items())[:_NAMED]
         ]
-        why = f" The uncertainty comes from: {', '.join(parts)}, each alone."
+        why = (
+            f" The uncertainty comes from: {', '.join(parts)}: change of the loss where this input "
+            "alone goes to its 95 % limit."
+        )
+        if (draws := int(dataset.attrs["draws"])) < _FEW_DRAWS:
+            why += f" The ends come from {draws} draws, which is rough: take 60 or more."
     return [
         Finding(
             NOTE,

@@ -191,10 +191,10 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     resonant = near is not None and abs(near.speed_rpm / top.speed_rpm - 1.0) < NEAR
     if near is not None:
         off = round(100.0 * (near.speed_rpm / top.speed_rpm - 1.0))
-        how_far = f"{abs(off)} % {'above' if off > 0 else 'below'}" if off else "there"
+        how_far = f"{abs(off)} % {'above' if off > 0 else 'below'}" if off else "at"
         detail += (
-            f"The nearest critical speed of that order is {how_far}: natural mode '{near.mode}', "
-            f"{near.frequency:.0f} Hz. "
+            f"The nearest critical speed of that order is {how_far} this speed: natural mode "
+            f"'{near.mode}', {near.frequency:.0f} Hz. "
         )
     if resonant and near is not None:
         detail += _of_the_car(dataset, near.mode)
@@ -204,6 +204,9 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
         f"{100.0 * shares[most]:.0f} % of the kinetic energy there is in the mode "
         f"'{dataset['mode'].values[most]}'. "
     )
+    first, last = levels.rpm(dataset, "mode_speed")[[0, -1]]
+    if not 0.999 * first <= top.speed_rpm <= 1.001 * last:  # in a car
+        detail += "The speed lies outside the ramp because the tyres slip. "
     if top.at_end:
         detail += f"The peak lies at the {top.at_end} of the ramp: extend the ramp. "
     words = "; ".join(
@@ -266,7 +269,7 @@ def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
             Finding(
                 WARNING if narrow else GOOD,
                 f"The next critical speed of mesh order {near.mesh_order} lies {where} the ramp, "
-                f"{100.0 * abs(near.margin):.0f} % away: '{near.mode}' at "
+                f"{100.0 * abs(near.margin):.0f} % beyond its end: '{near.mode}' at "
                 f"{_speed(dataset, near.speed_rpm)}.",
                 "This resonance already raises the level at the end of the ramp." if narrow else "",
             )
@@ -380,7 +383,7 @@ def numbers(dataset: xr.Dataset) -> list[Number]:
         ),
         Number("critical speeds of orders 1 to 3 within the ramp", float(len(inside)), "", 1),
         Number(
-            "margin of the loudest order to the next critical speed",
+            "from the end of the ramp to the next critical speed of the loudest order",
             100.0 * min(margins, default=np.nan),
             "%",
             2,
