@@ -79,7 +79,7 @@ def usable_words(inside: Array, axes: Sequence[tuple[Array, str]]) -> str:
 
 
 def _span(values: Array, unit: str) -> str:
-    first, last = f"{values[0]:.5g}", f"{values[-1]:.5g}"
+    first, last = (f"{one:.3g}" if abs(one) < 1e3 else f"{one:.0f}" for one in values[[0, -1]])
     return f"{first} {unit}" if first == last else f"{first} to {last} {unit}"
 
 
