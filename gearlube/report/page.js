@@ -18,13 +18,16 @@
   document.head.append(code);
 
   const PRINTED = 700, LOWER = 0.82, HIGHEST = 880;  // width of a page [px]; two figures fit on it
+  const SIZE = 13, SMALL = 11, LINE = 17, OVER = 16;  // px; OVER: a label may be longer than its axis
   const PHONE = 640, PANEL = 250, HIGH = 420, KEY = 18;  // px; HIGH: with names beside it
   const axis = (rule) => ({
     gridcolor: rule, zerolinecolor: rule, linecolor: rule, ticks: "outside", tickcolor: rule,
-    automargin: true, exponentformat: "power", title: {standoff: 8},
+    automargin: true, exponentformat: "power", title: {standoff: 8, font: {size: SIZE}},
   });
-  const template = (text, page, rule) => ({layout: {
-    font: {color: text, family: 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif', size: 13},
+  const scale = {colorbar: {title: {font: {size: SIZE}}}};
+  const maps = {heatmap: [scale], contour: [scale], mesh3d: [scale], surface: [scale]};
+  const template = (text, page, rule) => ({data: maps, layout: {
+    font: {color: text, family: 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif', size: SIZE},
     paper_bgcolor: page, plot_bgcolor: page, colorway: COLOURS,
     xaxis: axis(rule), yaxis: axis(rule), hovermode: "closest",
     margin: {l: 60, r: 20, t: 30, b: 50},
@@ -68,13 +71,73 @@
   const scaleBelow = (trace) => trace.colorbar ? {...trace, colorbar: {
     ...trace.colorbar, orientation: "h", x: 0, xanchor: "left", y: -0.16, yanchor: "top",
     title: {...trace.colorbar.title, side: "top"}}} : trace;
+  const bare = (text) => text.replace(/<[^>]*>/g, "");
+  const wrapped = (text, letters) => text.replaceAll("<br>", " ").split(" ").reduce(
+    (done, word) => bare(`${done} ${word}`.split("<br>").pop()).length > letters && done
+      ? `${done}<br>${word}` : `${done} ${word}`.trim(), "");
+  const lettersIn = (text, length, room) => {  // of a line that takes `length` px
+    const longest = Math.max(...text.split("<br>").map((line) => bare(line).length));
+    return Math.max(Math.floor(longest * room / length), 6);
+  };
+  const fitLabels = (plot, box, now) => {  // labels of axes are no longer than these
+    for (const label of plot.querySelectorAll(".infolayer text")) {
+      const [, letter, number] = label.getAttribute("class")?.match(/^([xy])(\d*)title$/) || [];
+      const axis = letter && plot._fullLayout[`${letter}axis${number}`];
+      if (!axis?.visible) continue;
+      const place = label.getBoundingClientRect();
+      const long = letter === "x" ? place.width : place.height;
+      const aside = letter === "x" ? [place.left - box.left, box.right - place.right] : [0, 0];
+      const room = Math.min(axis._length + OVER, long + 2 * Math.min(...aside) - (aside[0] && 4));
+      if (long <= room + 1) continue;
+      const name = `${axis._name}.title`;
+      const letters = lettersIn(axis.title.text, long, room);
+      now[`${name}.text`] = wrapped(axis.title.text, letters);
+      if (axis.title.text.split(" ").some((word) => bare(word).length > letters)) {
+        now[`${name}.font.size`] = SMALL;
+      }
+    }
+  };
+  const fitNotes = (plot, box, now) => {  // words stay in the chart, on maps in the panel
+    const upright = [];
+    for (const mark of plot.querySelectorAll(".annotation")) {
+      const number = mark.dataset.index, note = plot._fullLayout.annotations[number];
+      const place = mark.getBoundingClientRect(), name = `annotations[${number}]`;
+      if (note.textangle) {
+        const below = upright.filter((one) => one.right > place.left + 2 && one.left < place.right - 2
+          && one.bottom > place.top && one.top < place.bottom);
+        const up = below.length ? place.bottom - Math.min(...below.map((one) => one.top)) : 0;
+        if (up) now[`${name}.yshift`] = note.yshift + up;
+        upright.push(new DOMRect(place.x, place.y - up, place.width, place.height));
+        continue;
+      }
+      const axis = plot._fullLayout[note.xref.replace(/^x(\d*)$/, "xaxis$1")];
+      const end = axis && note.font.color === "#ffffff" ? box.left + axis._offset + axis._length : box.right;
+      const over = place.right - end;
+      if (over <= 0 || note.xanchor !== "left") continue;
+      const left = Math.min(over + 2, place.left - box.left);
+      now[`${name}.xshift`] = note.xshift - left;
+      if (left > over) continue;
+      const lines = note.text.split("<br>").length;
+      now[`${name}.text`] = wrapped(note.text, lettersIn(note.text, place.width, box.width - 4));
+      const more = now[`${name}.text`].split("<br>").length - lines;
+      if (note.yref === "paper") now["margin.t"] = plot._fullLayout.margin.t + LINE * more;
+    }
+  };
+  const fit = async (plot) => {
+    for (const parts of [fitLabels, fitNotes]) {  // labels of several lines move the rest
+      const now = {};
+      parts(plot, plot.getBoundingClientRect(), now);
+      if (Object.keys(now).length) await Plotly.relayout(plot, now);
+    }
+  };
   const drawn = new Set();
-  const draw = (plot, own) => {
+  const draw = async (plot, own) => {
     drawn.add(plot);
     const {data, layout, frames} = report.charts[plot.dataset.figure];
     const whole = {...stacked(plot, layout, data), template: look(), ...own};
     const shown = innerWidth > PHONE || !layout.meta?.places ? data : data.map(scaleBelow);
-    return Plotly.newPlot(plot, {data: shown, layout: whole, config, frames: frames || []});
+    await Plotly.newPlot(plot, {data: shown, layout: whole, config, frames: frames || []});
+    await fit(plot);
   };
   const drawOpen = async () => {  // what is folded has no width yet
     for (const plot of plots) {

@@ -49,6 +49,7 @@ def _band(channel: charts.ExtremesChannel) -> Callable[..., Any]:
     return partial(charts.extremes_against_speed, channel=channel)
 
 
+_PAPER = "Mohammadpour et al. 2015,"
 _BUBBLES = (
     "A bubble is a line of the spectrum, the larger the higher its level. Dotted: natural "
     "frequencies. Engine orders of the coupled car stay near 50 Hz, because the gear is chosen for "
@@ -85,7 +86,7 @@ CATALOGUE = (
         name="dte_extremes",
         title="Extremes of the transmission error",
         essential=True,
-        caption="Extremes of the dynamic transmission error (compare figure 5). Below zero the "
+        caption=f"Extremes of the dynamic transmission error ({_PAPER} figure 5). Below zero the "
         "drive flanks separate; the strip names the kind of separation.",
         draw=_band(charts.DTE),
     ),
@@ -93,7 +94,7 @@ CATALOGUE = (
         name="roller_extremes",
         title="Extremes of the load of one roller",
         essential=True,
-        caption="Extremes of the load of one roller (compare figure 11). A roller that reaches "
+        caption=f"Extremes of the load of one roller ({_PAPER} figure 11). A roller that reaches "
         "zero has left its races: the preload is too low.",
         draw=_band(charts.ROLLER),
     ),
@@ -101,7 +102,7 @@ CATALOGUE = (
         name="efficiency",
         title="Efficiency and losses",
         essential=True,
-        caption="Efficiency of the gear mesh (flank friction only, compare figure 12) and of the "
+        caption=f"Efficiency of the gear mesh (flank friction only; {_PAPER} figure 12) and of the "
         "axle with all modelled losses, above the losses themselves.",
         draw=efficiency,
     ),
@@ -124,8 +125,7 @@ CATALOGUE = (
     Entry(
         name="dte_map",
         title="Spectra of the transmission error",
-        caption="Spectra of the dynamic transmission error (compare Mohammadpour et al. 2015, "
-        f"figures 3 and 4). {_BUBBLES}",
+        caption=f"Spectra of the dynamic transmission error ({_PAPER} figures 3 and 4). {_BUBBLES}",
         draw=_map(orders.DTE),
     ),
     Entry(
@@ -140,21 +140,21 @@ CATALOGUE = (
         name="radial_map",
         title="Spectra of the radial displacement of the pinion",
         caption="Spectra of the radial displacement of the pinion, which excites the casing "
-        f"(compare figures 6 and 7). {_BUBBLES}",
+        f"({_PAPER} figures 6 and 7). {_BUBBLES}",
         draw=_map(orders.RADIAL),
     ),
     Entry(
         name="radial_extremes",
         title="Extremes of the radial displacement of the pinion",
         caption="Extremes of the radial displacement of the pinion, sqrt(y2 + z2) from the "
-        "preloaded rest position (compare figure 8).",
+        f"preloaded rest position ({_PAPER} figure 8).",
         draw=_band(charts.RADIAL),
     ),
     Entry(
         name="roller_map",
         title="Spectra of the load of one roller",
-        caption="Spectra of the load of one roller (compare figures 9 and 10). Beside a mesh order "
-        "lie its sidebands: the roller moves through the loaded zone while the force swings. "
+        caption=f"Spectra of the load of one roller ({_PAPER} figures 9 and 10). Beside a mesh "
+        "order lie its sidebands: the roller moves through the loaded zone while the force swings. "
         f"{_BUBBLES}",
         draw=_map(orders.ROLLER),
     ),
