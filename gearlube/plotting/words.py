@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable, Collection, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlube.plotting.style import GREY, INK, OLIVE, PURPLE, SAND, SKY, WINE, YELLOW
 from gearlube_core.arrays import Array
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE, EDGE_WORDS
+
+if TYPE_CHECKING:
+    from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 
 _WORDS = {
     "misalignment.pinion_offset": "misalignment E (offset)",
@@ -33,10 +36,7 @@ SOURCE_WORDS = {
 # the same in every figure, and none of those of preloads and orders
 _INKS = (SKY, PURPLE, INK, GREY, SAND, OLIVE, WINE, YELLOW)
 SOURCE_COLOURS = dict(zip(SOURCE_WORDS, _INKS, strict=True))
-NEVER_MODELLED = (
-    "bearings of the wheel ends unless seals.hub_torque_n_m is given",
-    "windage",
-)
+_HUBS = "bearings of the wheel ends ({} their torque in seals.hub_torque_n_m)"
 _SAID = (
     "bearing_torque",
     "churning",
@@ -123,9 +123,25 @@ def source_colour(source: str) -> str:
 
 
 def not_modelled(losing: Collection[str]) -> tuple[str, ...]:
-    """Return what is left out where only the sources `losing` lose power.
+    """Return what is left out where only the sources `losing` lose power, of an unknown axle.
 
     >>> not_modelled({"friction_viscous", "bearing_torque"})[:2]
     ('churning', 'seals')
     """
-    return (*(source_words(one) for one in _SAID if one not in losing), *NEVER_MODELLED)
+    missing = (source_words(one) for one in _SAID if one not in losing)
+    return (*missing, _HUBS.format("unless the axle file gives"), "windage")
+
+
+def left_out(axle: HypoidAxleParameters) -> tuple[str, ...]:
+    """Return the losses that an axle leaves out."""
+    found = {
+        "churning": axle.churning == "none",
+        "pinion seal": axle.pinion_seal_torque == 0.0,
+        "wheel seals": axle.wheel_seal_torque == 0.0,
+        "bearing drag": axle.bearing_torque_loss == "none",
+        "flank friction": not axle.friction_law.rubs,
+        "rolling of the flanks": axle.rolling == "none",
+        _HUBS.format("give"): axle.hub_torque == 0.0,
+        "windage": True,
+    }
+    return tuple(words for words, missing in found.items() if missing)

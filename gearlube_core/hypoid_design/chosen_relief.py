@@ -34,6 +34,7 @@ ROLES: tuple[Role, Role] = ("pinion", "gear")
 LEAST = {"pinion tip": 20.0, "gear tip": 20.0, "ends": 30.0}  # um, of a relief that is chosen
 MOST = 200.0  # um
 _STEEPEST = 0.09  # amount over extent; gear files take up to 0.1
+_TEETH = 0.7  # of the time
 _RISE = 1.25  # of an amount whose edge still carries
 POSITIONS = 12  # of the mesh
 # coarse cells do: relief is deepest at the edge, so finer cells there stand farther off
@@ -207,7 +208,7 @@ def chosen_relief(
         progress(0.0, "elastic teeth")
         teeth = pair_stiffness(file, ToothBodySettings(), jobs=jobs)
         for number, side in enumerate(SIDES):
-            progress(0.4 + 0.3 * number, f"relief of the {side} flanks")
+            progress(_TEETH + 0.25 * number, f"relief of the {side} flanks")
             found = _risen(designed, file, side, dict(amounts), free, torque, teeth[side])
             sides[side], edges[side], pressure[side] = found
     except GearLubeError as reason:

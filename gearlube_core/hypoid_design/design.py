@@ -31,7 +31,7 @@ from gearlube_core.hypoid_design.pinion_fit import SIDES, Fit, fit_pinion
 from gearlube_core.hypoid_design.start_settings import start_pair
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.progress import Progress, no_progress
+from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.process_pool import on_one_thread
 from gearlube_core.units import DEGREE, MILLIMETRE
 
@@ -40,7 +40,7 @@ CHOSEN_TURNS = tuple(math.tan(angle * DEGREE) for angle in (44.0, 30.0, 15.0))
 ROUNDS = 6  # fits, each with targets corrected by what the analysis found
 _NEAR = 0.1  # sum of squares of what a side misses, in parts of what a design may miss
 _FAILED = 1.0
-_FITTED = 0.4  # of the time
+_FITTED, _RELIEVED = 0.1, 0.9  # shares of the time before relief and after it
 MICRORADIAN = 1e-6
 
 Measured = MeasuredContact | str
@@ -121,12 +121,8 @@ def design_pair(file: BlankFile, progress: Progress = no_progress, jobs: int | N
     attempts: list[Attempt] = []
     for number in range(len(CHOSEN_TURNS)):
         targets = wanted_targets(designed, start, turns)
-        share = number / len(CHOSEN_TURNS)
-
-        def report(part: float, sentence: str, share: float = share) -> None:
-            progress(_FITTED * (share + part / len(CHOSEN_TURNS)), sentence)
-
-        attempt = nearest_fit(designed, start, targets, report)
+        shares = (_FITTED * (number + one) / len(CHOSEN_TURNS) for one in (0, 1))
+        attempt = nearest_fit(designed, start, targets, part_of(progress, *shares))
         attempts.append(attempt)
         failed = [side for side in SIDES if attempt.far[side] > _FAILED and free[side]]
         if not failed:
@@ -136,11 +132,9 @@ def design_pair(file: BlankFile, progress: Progress = no_progress, jobs: int | N
     best = min(attempts, key=_missed)
     _check(best.fit, file.machine.denied)
     fitted = rounded_file(best.fit.file)
-    relief = chosen_relief(
-        designed, fitted, lambda share, said: progress(_FITTED + (1 - _FITTED) * share, said), jobs
-    )
+    relief = chosen_relief(designed, fitted, part_of(progress, _FITTED, _RELIEVED), jobs)
     found = named_file(designed, fitted, relief)
-    progress(1.0, "checking teeth and contact")
+    progress(_RELIEVED, "checking teeth and contact")
     return Design(
         designed=designed,
         file=found,

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearlube.studies.loss_map.datasets import not_modelled
+from gearlube.plotting.words import left_out
 from gearlube_core.contact.hertz import hertz_coefficients, hertz_ellipse
 from gearlube_core.dynamics.hypoid_axle.losses import LOSS_SOURCES, axle_losses
 from gearlube_core.dynamics.hypoid_axle.model import HypoidAxle
@@ -181,7 +181,7 @@ def test_energy_is_kept_with_rolling():
 
 
 def test_what_is_left_out_is_said_and_a_wrong_law_is_named():
-    assert "rolling of the flanks" in not_modelled(mohammadpour_2015_axle())
-    assert "rolling of the flanks" not in not_modelled(ROLLING)
+    assert "rolling of the flanks" in left_out(mohammadpour_2015_axle())
+    assert "rolling of the flanks" not in left_out(ROLLING)
     with pytest.raises(ParameterError, match="biboulet_houpert_2010"):
         replace(mohammadpour_2015_axle(), rolling="biboulet")

@@ -35,6 +35,7 @@ def an_axle(**changes):
         "flank_bulk_resistance": 0.1,
         "pinion_seal_torque": 1.0,
         "wheel_seal_torque": 0.0,
+        "hub_torque": 0.0,
         "friction_law": SimpleNamespace(rubs=True),
         "rolling": "none",
         "ranges": RANGES,
@@ -117,7 +118,7 @@ def test_every_variable_of_a_loss_map_has_its_known_values_and_unit(monkeypatch)
         "pinion_seal_torque": 1.0,
         "oil_data_high_degc": 150.0,
         "not_modelled": "wheel seals, rolling of the flanks, bearings of the wheel ends "
-        "unless seals.hub_torque_n_m is given, windage",
+        "(give their torque in seals.hub_torque_n_m), windage",
         "uncertain": "a: factor 1.5 (k = 2), old; b: factor 2 (k = 2), old",
         "air_temperature_degc": 20.0,
         "conductance_at_rest_w_k": 7.0,

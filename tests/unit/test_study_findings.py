@@ -97,7 +97,8 @@ def test_loss_map_has_its_known_key_numbers_findings_and_tables(a_map):
          "429 W, 100 N·m, 2000 rpm, 40 °C, 98 %, 2 %"),
         (NOTE, "Not modelled: windage", ""),
         # 5 W at 209.4 rad/s to 10 W at 104.7 rad/s
-        (NOTE, "without load takes … windage", "0.0239 N·m, 0.0955 N·m, 0 N·m, 100 %"),
+        (NOTE, "without load takes … nearest to zero … bearing drag",
+         "0.0239 N·m, 0.0955 N·m, 0 N·m, 100 %"),
         (NOTE, "Warming the oil … lowers the mean loss torque", "40, 80 °C, 50 %"),
         (WARNING, "smallest film ratio … below",
          "0.50, 100 N·m, 1000 rpm, 80 °C, 1, 8 %"),

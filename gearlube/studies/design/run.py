@@ -24,7 +24,7 @@ from gearlube_core.hypoid_design.blank_file import BlankFile
 from gearlube_core.hypoid_design.design import Design, design_pair
 from gearlube_core.hypoid_design.pinion_fit import SIDES
 from gearlube_core.hypoid_geometry.flank.tooth_form import ToothForm, tooth_form
-from gearlube_core.progress import Progress, no_progress
+from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 from gearlube_core.storage.file_names import pair_stem
 from gearlube_core.units import DEGREE, MILLIMETRE
@@ -47,7 +47,7 @@ _ASKED = (
     ("t", "mean contact, t", "", 1.0),
 )
 
-_SHARE = 0.9  # of the time for the settings
+_SHARE = 0.8  # of the time for settings and relief
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,15 +98,15 @@ def run_design(
     >>> found = run_design(BlankFile.named("hypoid_13_42"))  # doctest: +SKIP
     >>> found.design.file.pinion.machine.tilt_angle_deg  # doctest: +SKIP
     """
-    design = design_pair(file, lambda share, said: progress(_SHARE * share, said), jobs)
+    design = design_pair(file, part_of(progress, 0.0, _SHARE), jobs)
     progress(_SHARE, "form of the teeth")
     forms = {"pinion": tooth_form(design.file, "pinion"), "gear": tooth_form(design.file, "gear")}
-    progress(_SHARE + 0.02, "ease-off and contact pattern")
+    progress(0.88, "ease-off and contact pattern")
     results = DesignResults(
         design=design, forms=forms, dataset=Result.of(design_dataset(design, forms), "design")
     )
     if folder is not None:
-        progress(0.98, "writing report and figures")
+        progress(0.92, "writing report and figures")
         write_design(results, folder)
     return results
 

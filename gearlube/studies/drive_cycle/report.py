@@ -60,7 +60,7 @@ _OPTIONS = (
 _LIMITS = (
     "The loss in each step is that of steady running at the torque, speed and oil temperature in "
     "the middle of the step. At standstill nothing is lost.",
-    "One temperature for oil and housing; heat from brakes, gearbox and exhaust is left out.",
+    "One temperature for oil and housing.",
     "With draws, low and high contain 95 % of the draws of all uncertain data; without draws they "
     "contain only the assumed heat data. The dashed temperatures contain only the heat data.",
 )

@@ -12,7 +12,7 @@ import xarray as xr
 from drivetrain.sump_heat import SumpHeat, Warming, warm
 from gearlube.output.csv_text import csv_text
 from gearlube.plotting.figure_files import save_figure_folder
-from gearlube.plotting.words import not_modelled
+from gearlube.plotting.words import left_out
 from gearlube.report.churning import REGIME, churning_regime
 from gearlube.report.cycle import KJ, Variable, energy, steps_dataset, variables_of
 from gearlube.report.films import covered_alone, film_model_attributes
@@ -88,7 +88,7 @@ def cycle_dataset(
     if spread is not None:
         ends = np.array(spread.lost)
     whose = "fastest and slowest warming" if spread is None else "95 % of draws"
-    lost, energy_in = base["energy_lost"].values, float(base["energy_in"])
+    energy_in = float(base["energy_in"])
     step, time = ("step",), ("time",)
     variables: dict[str, Variable] = {
         "oil_temperature": (time, temperatures[0], "degC", "oil temperature"),
@@ -170,7 +170,7 @@ def cycle_dataset(
     if spread is not None:
         named = [f"{name} {100.0 * share:.0f} %" for name, share in spread.causes[:_NAMED_CAUSES]]
         dataset.attrs["causes"] = ", ".join(named)
-    return dataset.assign_attrs(_attributes(settings, lost, outside))
+    return dataset.assign_attrs(_attributes(settings, outside))
 
 
 def _share(outside: Array, weights: Array) -> Array:
@@ -179,8 +179,7 @@ def _share(outside: Array, weights: Array) -> Array:
     return np.asarray(weights @ outside / whole if whole > 0.0 else 0.0 * outside.sum(axis=0))
 
 
-def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> dict[str, object]:
-    losing = {name for name, one in zip(LOSS_SOURCES, lost, strict=True) if one > 0.0}
+def _attributes(settings: DriveCycleSettings, outside: Array) -> dict[str, object]:
     heat = settings.heat
     left = np.flatnonzero(outside.sum(axis=0))
     ranges = [settings.car.axle.ranges[i] for i in left]
@@ -188,7 +187,7 @@ def _attributes(settings: DriveCycleSettings, lost: Array, outside: Array) -> di
         "axle": settings.car.name,
         "oil": settings.car.axle.oil.name,
         **film_model_attributes(settings.car.axle.film_models),
-        "not_modelled": ", ".join((*not_modelled(losing), _NOT_HEATED)),
+        "not_modelled": ", ".join((*left_out(settings.car.axle), _NOT_HEATED)),
         "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in ranges),
         "start_temperature_degc": settings.start_temperature - ZERO_CELSIUS,
         "air_temperature_degc": settings.air_temperature - ZERO_CELSIUS,

@@ -8,14 +8,13 @@ import numpy as np
 import xarray as xr
 
 from drivetrain.steady_temperature import Cooling
-from gearlube.plotting.words import NEVER_MODELLED
+from gearlube.plotting.words import left_out
 from gearlube.report.churning import REGIME, churning_regime
 from gearlube.report.films import covered_alone, film_model_attributes
 from gearlube.studies.loss_map.sampling import Spread
 from gearlube.studies.loss_map.settings import LossMapSettings
 from gearlube_core.arrays import Array
 from gearlube_core.dynamics.hypoid_axle.losses import FAILURES, LOSS_SOURCES, AxleLosses
-from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 from gearlube_core.dynamics.ranges import left_ranges
 from gearlube_core.units import ZERO_CELSIUS, kelvin_to_celsius, labelled
 
@@ -130,19 +129,6 @@ def with_steady_temperature(
     )
 
 
-def not_modelled(axle: HypoidAxleParameters) -> tuple[str, ...]:
-    """Return the losses that an axle leaves out."""
-    left_out = {
-        "churning": axle.churning == "none",
-        "pinion seal": axle.pinion_seal_torque == 0.0,
-        "wheel seals": axle.wheel_seal_torque == 0.0,
-        "bearing drag": axle.bearing_torque_loss == "none",
-        "flank friction": not axle.friction_law.rubs,
-        "rolling of the flanks": axle.rolling == "none",
-    }
-    return (*(words for words, missing in left_out.items() if missing), *NEVER_MODELLED)
-
-
 def _of_film_model(losses: AxleLosses, pinion_power: Array, total: Array) -> dict[str, Any]:
     """Return name and bounds of a model of solved films."""
     put_in = np.where(pinion_power > 0.0, pinion_power, total - pinion_power)
@@ -187,7 +173,7 @@ def _attributes(settings: LossMapSettings, losses: AxleLosses) -> dict[str, obje
         "oil": axle.oil.name,
         "oil_data_high_degc": kelvin_to_celsius(axle.oil.temperature_high),
         **film_model_attributes(axle.film_models),
-        "not_modelled": ", ".join(not_modelled(axle)),
+        "not_modelled": ", ".join(left_out(axle)),
         "reasons": "; ".join(f"{key}: {words}" for key, words in FAILURES.items() if key),
         "ranges_left": "; ".join(f"{one.what} ({one.output})" for one in left),
         "draws": settings.draws,

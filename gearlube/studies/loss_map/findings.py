@@ -168,9 +168,9 @@ def _drag(dataset: xr.Dataset) -> list[Finding]:
             NOTE,
             f"Turning without load takes {quantity_text(_least(idle), 'N·m')} to "
             f"{quantity_text(_most(idle), 'N·m')} at the pinion.",
-            f"Read at {float(idle['torque']):.3g} N·m, next to zero; in the middle of the map "
-            f"{largest_losses(dataset['source'].values, parts)}. Not in it: "
-            f"{dataset.attrs['not_modelled']}. Give preload and seals of the axle: they decide it.",
+            f"At {float(idle['torque']):.3g} N·m, the torque of the map nearest to zero. Its parts "
+            f"in the middle: {largest_losses(dataset['source'].values, parts)}. Give preload and "
+            "seals of the axle: they decide it.",
         )
     ]
 

@@ -252,7 +252,7 @@ def no_load_table(dataset: xr.Dataset) -> list[Table]:
             title=f"Turning without load [N·m at the pinion] with oil of {degree:g} °C",
             columns=[Column("part"), *columns],
             rows=[[words, *(power / turning).tolist()] for words, power in parts.items()],
-            caption=f"Read at {float(idle['torque']):.3g} N·m. The preload of bearings is in it.",
+            caption=f"At {float(idle['torque']):.3g} N·m. The preload of bearings is in it.",
         )
     ]
 
