@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
@@ -53,6 +54,9 @@ _ABSENT = {
     "body.polar_inertia_kg_mm2": "a disc of the member's mass and the root diameter",
     "body.diametral_inertia_kg_mm2": "a disc: J_z/2 + m W^2/12",
 }
+
+_RADIUS = re.compile(r"\b(pinion|gear)_(tip|root)_radius")
+_IN_METRES = re.compile(r"(\S+) to (\S+) m, got (\S+) m\b")
 
 
 class HelicalGearFile(InputFile):
@@ -129,8 +133,11 @@ class HelicalGearFile(InputFile):
             self.modified_pair()
         except ParameterError as reason:
             text = str(reason).partition(" Give metres")[0].removesuffix(".")
+            text = text.replace("centre_distance", "pair.centre_distance_mm")
+            text = _RADIUS.sub(r"half of \1.\2_diameter_mm", text)
+            text = _IN_METRES.sub(lambda found: _in_millimetres(*found.groups()), text)
             raise ValueError(
-                f"In SI units: {text}. With other teeth, module or helix angle the diameters of "
+                f"{text}. With other teeth, module or helix angle the diameters of "
                 "tip and root and the centre distance change too"
             ) from None
         return self
@@ -172,8 +179,9 @@ class HelicalGearFile(InputFile):
         x1, x2 = (round(x, 3) + 0.0 for x in self.helical_pair().profile_shifts)
         return [
             f"Profile shift coefficients are guessed: x = {x1:.3f} (pinion) and {x2:.3f} (gear). "
-            "They follow from centre distance and tip diameters, with equal addenda and no "
-            "backlash. Give profile_shift_coefficient of [pinion] and [gear]."
+            "Their sum is that of teeth that mesh with zero backlash at the given centre distance, "
+            "their difference that of equal addenda. Give profile_shift_coefficient of [pinion] "
+            "and [gear]."
         ]
 
     def remarks(self) -> list[str]:
@@ -316,3 +324,8 @@ def _support(side: float, bearing: Bearing) -> SupportStiffness:
         K_x_theta_y=bearing.coupling_x_kn_per_rad * 1e3,
         K_y_theta_x=bearing.coupling_y_kn_per_rad * 1e3,
     )
+
+
+def _in_millimetres(*metres: str) -> str:
+    low, high, got = (f"{float(one) / MILLIMETRE:.4g}" for one in metres)
+    return f"{low} to {high} mm, got {got} mm"

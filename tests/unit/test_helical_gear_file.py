@@ -85,7 +85,7 @@ def test_every_number_has_a_unit_or_needs_none_and_a_meaning():
         ),
         ({"gear.flank.tip_relief_form": "cubic"}, "text, blended or power, got 'cubic'"),
         ({"pair.helix_angle": 20.0}, r"is it pair\.helix_angle_deg\?"),
-        ({"pair.centre_distance_mm": 75.0}, "SI units: centre_distance must be within 0.08"),
+        ({"pair.centre_distance_mm": 75.0}, r"pair\.centre_distance_mm .* 1\d\d\S* mm, got 75 mm"),
         (
             {"pinion.tip_diameter_mm": 120.0},
             "Contact must lie between the tangent points.* Reduce the tip radii",

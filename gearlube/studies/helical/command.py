@@ -262,7 +262,8 @@ _SYMBOLS = (
 def _table(name: str, rows: list[Row]) -> Table:
     from gearlube.report.numbers import number_text
 
-    table = empty_table(f"{name}: helical pair", "", "quantity", ">value", "unit", caption=_SYMBOLS)
+    symbols = _SYMBOLS if any("delta_z" in row.quantity for row in rows) else None
+    table = empty_table(f"{name}: helical pair", "", "quantity", ">value", "unit", caption=symbols)
     topic = ""
     for row in rows:
         factor, unit = _SHOWN.get(row.unit, (1.0, row.unit))

@@ -33,7 +33,7 @@ from gearlube_core.dynamics.helical_pair.linear.linear_system import RELATIVE
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
 _ORDERS = 5
-_MOST_ROWS = 40  # of the table of losses
+_MOST_ROWS = 100  # of the table of losses
 _SPEED = Axis("pinion speed", "rpm")
 _DEFAULT = ASSUMED, "default"
 _MAIN = (
@@ -96,7 +96,8 @@ def _loss_chart(losses: xr.Dataset) -> Any:
                         line={"width": 0},
                         mode="lines",
                         hoverinfo="skip",
-                        showlegend=False,
+                        name=f"95 % of the draws at {name}",
+                        showlegend=row == 1,
                         **look,
                     )
     chart.update_xaxes(exponentformat="none")

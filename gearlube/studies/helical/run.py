@@ -29,7 +29,7 @@ from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset, write_text
 
 PARTS = "parts"  # subfolder for finished parts
-_COMPUTING = 0.95  # share of the running time before files and figures
+_COMPUTING = 0.7  # share of the running time before files and figures
 
 
 def run_helical(

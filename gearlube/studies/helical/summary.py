@@ -9,6 +9,8 @@ import numpy as np
 import xarray as xr
 
 from gearlube.output.csv_text import csv_text
+from gearlube.studies.helical.figures.load_sharing import spread
+from gearlube.studies.helical.pair_losses import in_operation
 from gearlube.studies.helical.settings import RPM, SHOWN_MU
 from gearlube.studies.helical.stages import HelicalResults
 
@@ -197,10 +199,14 @@ def _film(film: xr.Dataset) -> list[Row]:
 
 
 def losses_rows(losses: xr.Dataset, most: int = MOST_POINTS) -> list[xr.Dataset]:
-    """Return up to `most` points of the losses, spread over all."""
+    """Return all points of the losses; of more than `most`, some at the torque in operation."""
+    if losses["efficiency"].size > most:
+        own = in_operation(losses)
+        losses = losses.sel(temperature=[own["temperature"]], torque=[own["torque"]])
+        speeds = spread(losses["speed"].values, most - 1)
+        losses = losses.sel(speed=np.union1d(speeds, own["speed"]))
     points = losses.stack(point=("temperature", "torque", "speed"))
-    kept = np.unique(np.linspace(0, points.sizes["point"] - 1, most).round().astype(int))
-    return [points.isel(point=int(i)) for i in kept]
+    return [points.isel(point=i) for i in range(points.sizes["point"])]
 
 
 def loss_model(one: xr.Dataset) -> str:

@@ -44,6 +44,7 @@ from gearlube.studies.helical.figures.load_sharing import (
     harris_map,
     load_sharing,
     loaded_stiffness,
+    spread,
 )
 from gearlube.studies.helical.figures.speed_sweep import (
     campbell,
@@ -51,6 +52,7 @@ from gearlube.studies.helical.figures.speed_sweep import (
     order_cuts,
     separation,
 )
+from gearlube.studies.helical.pair_losses import in_operation
 from gearlube_core.film_model.model import MOST_OUTSIDE
 from gearlube_core.storage.atomic_file import write_figure
 
@@ -82,8 +84,9 @@ _MOTIONS = "u: shift of a gear; x along the line of action, y across it, z along
 
 def pair_losses(dataset: xr.Dataset) -> Any:
     """Return the loss torque over speed, a line for each torque, a panel for each temperature."""
-    temperatures = _some(dataset["temperature"].values)
-    torques = _some(dataset["torque"].values)
+    temperatures = spread(dataset["temperature"].values, _MOST)
+    torques = spread(dataset["torque"].values, _MOST)
+    banded = float(in_operation(dataset)["torque"]) if "loss_torque_low" in dataset else None
     with house_style():
         figure = new_figure(max(4.2 * len(temperatures) + 1.2, 6.4), 4.6)
         panels = np.atleast_1d(figure.subplots(1, len(temperatures), sharey=True))
@@ -102,15 +105,10 @@ def pair_losses(dataset: xr.Dataset) -> Any:
                     by = one.where(one["by_formulas"] > 0)
                     hollow = {"color": "white", "marker": MARKERS[row % len(MARKERS)], "ls": ""}
                     ax.plot(by["speed"], by["loss_torque"], mec=colour, zorder=3, **hollow)
-                if "loss_torque_low" in one:
-                    ax.fill_between(
-                        one["speed"],
-                        one["loss_torque_low"],
-                        one["loss_torque_high"],
-                        color=colour,
-                        alpha=0.18,
-                        lw=0.0,
-                    )
+                if torque == banded:
+                    ends = one["loss_torque_low"], one["loss_torque_high"]
+                    look = {"color": colour, "alpha": 0.18, "lw": 0.0}
+                    ax.fill_between(one["speed"], *ends, label="95 % of the draws", **look)
             ax.set(xlabel="pinion speed [rpm]", title=f"oil {temperature:g} °C")
         panels[0].set_ylim(bottom=0.0)  # of all panels, once all are drawn
         panels[0].set_ylabel("loss torque at the pinion [N·m]")
@@ -118,14 +116,13 @@ def pair_losses(dataset: xr.Dataset) -> Any:
         figure.legend(
             handles, names, title="pinion torque", ncols=_MOST, loc="outside lower center"
         )
-        bands = "; bands: 95 % of the draws" if "loss_torque_low" in dataset else ""
         films = ""
         if "by_formulas" in dataset:
             films = (
                 f"Solved films; hollow: formulas, more than {MOST_OUTSIDE:.0%} of load outside.\n"
             )
         figure.suptitle(
-            f"Sliding and rolling of the teeth{bands}.\n{films}"
+            f"Sliding and rolling of the teeth.\n{films}"
             f"Not modelled: {dataset.attrs['not_modelled']}.",
             fontsize=8.5,
         )
@@ -148,11 +145,6 @@ def bearing_forces(response: xr.Dataset) -> Any:
         ("F_zp", "$F_{z}$", 1.0, "N"),
     )
     return _histories(response, rows, "Forces of both bearings on the pinion")
-
-
-def _some(values: np.ndarray) -> list[float]:
-    chosen = np.unique(np.linspace(0, values.size - 1, min(values.size, _MOST)).astype(int))
-    return [float(values[i]) for i in chosen]
 
 
 def _histories(
