@@ -8,7 +8,7 @@ import shutil
 import sys
 import tempfile
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -36,7 +36,11 @@ def can_build_native() -> bool:
 
 
 def cached_hypoid_axle(
-    mesh_table: Path | None = None, *, axle: str | Path | None = None, native: bool | None = None
+    mesh_table: Path | None = None,
+    *,
+    axle: str | Path | None = None,
+    native: bool | None = None,
+    report: Callable[[str], None] = _LOGGER.info,
 ) -> Path:
     """Return HypoidAxle.fmu from the user's cache; build it if sources or files are new.
 
@@ -49,6 +53,8 @@ def cached_hypoid_axle(
     native : bool, optional
         Whether the FMU computes by itself, or in this package. By default native where the
         compiler is installed.
+    report : callable, optional
+        Called with each line of progress of a native build.
 
     Raises
     ------
@@ -74,10 +80,9 @@ def cached_hypoid_axle(
         folder.mkdir(parents=True, exist_ok=True)
         options = None
         if native:
-            _LOGGER.info("building the native FMU of this machine, once")
-            options = NativeOptions(
-                platforms=[platform_of_this_machine()], fmi=["2"], reference=False
-            )
+            report("building the native FMU of this machine, once")
+            platform = platform_of_this_machine()
+            options = NativeOptions(platforms=[platform], fmi=["2"], reference=False, report=report)
         build_models(folder, "hypoid-axle", mesh_table, axle=axle, native=options)
     return path
 

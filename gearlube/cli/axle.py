@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from typing import Annotated
 
 import typer
@@ -9,6 +10,8 @@ import typer
 from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import exit_on_error
 from gearlube.cli.options import ExampleOption
+
+_LOGGER = logging.getLogger("gearlube")
 
 axle = typer.Typer(
     name="axle", help="Check and show an axle file (an axle and its car).", no_args_is_help=True
@@ -34,6 +37,7 @@ def show(
     if example:
         print_example("drivetrain.axle_file.axle_file:AxleFile", "mohammadpour_2015")
         return
+    _LOGGER.info("Reading the axle with its gears and oil, some seconds; more the first time.")
     from drivetrain.axle_file.read_axle import read_axle
     from gearlube.cli.axle_gears import bring_gears_up_to_date
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterable
 from pathlib import Path
 
 from gearlube.cli.study_run import progress_on
+
+_LOGGER = logging.getLogger("gearlube")
 
 
 def bring_gears_up_to_date(
@@ -39,5 +42,6 @@ def bring_gears_up_to_date(
     for one in [file, *(file.varied({"gear_set.gear_file": other}) for other in others)]:
         if one.gear_set.gear_file is None or kept_table(one, folder).current() is not None:
             continue
+        _LOGGER.info("The contact of %s is analysed, once, and kept.", one.gear_set.named)
         with progress_on("contact") as progress:
             table_file(one, folder, jobs=jobs, progress=progress)

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from threading import Event, Thread
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 _LOGGER = logging.getLogger("gearlube")
 _PER_MILLE = 1000  # steps of a bar without parts of its own
-_SILENCE = 30.0  # s, after which a line is written although little more is done
+_SILENCE = 30.0  # s; a line is written at the end of such a span that had none
 
 
 @dataclass(frozen=True)
@@ -101,10 +102,15 @@ def progress_on(name: str, parts: int = _PER_MILLE) -> Iterator[Progress]:
     """Yield a callback that shows the share done [-] with a sentence and the time left.
 
     On a terminal this is a bar, with percent or, if given, the number of `parts`. Elsewhere it is
-    a line each 10 %, and each half a minute if that takes longer.
+    a line for each step of preparation, each 10 %, and at least one a minute.
     """
     if not console.is_terminal:
-        yield _ProgressLines(name).report
+        lines = _ProgressLines(name)
+        Thread(target=lines.tell_in_silence, daemon=True).start()
+        try:
+            yield lines.report
+        finally:
+            lines.ended.set()
         return
     in_percent = parts == _PER_MILLE
     columns = (
@@ -124,30 +130,43 @@ def progress_on(name: str, parts: int = _PER_MILLE) -> Iterator[Progress]:
 
 
 class _ProgressLines:
-    """Progress as lines of text, for files and pipes.
+    """Progress as lines of text, for files and pipes: preparation, tenths of the work, silence.
 
     Time before the first share of the work, for preparation, does not count for the time left.
     """
 
     def __init__(self, name: str) -> None:
         self._name = name
-        self._began = self._last = self._ready = time.monotonic()
-        self._tenths = 0
+        self._began = self._ready = time.monotonic()
+        self._tenths = 0  # of the work, at the last line
+        self._share, self._sentence = 0.0, ""
+        self._silent = True
+        self.ended = Event()
 
     def report(self, share: float, sentence: str) -> None:
         now, tenths = time.monotonic(), int(10.0 * share + 1e-9)
+        new = share == 0.0 and sentence != self._sentence
+        self._share, self._sentence = share, sentence
         if share == 0.0:
             self._ready = now
-        if tenths <= self._tenths and now - self._last < _SILENCE:
-            return
-        self._tenths, self._last = max(tenths, self._tenths), now
-        spent = now - self._began
-        left = ""
-        if 0.0 < share < 1.0:
-            left = f", about {(now - self._ready) * (1.0 - share) / share:.0f} s left"
-        _LOGGER.info(
-            "%s %.0f %% after %.0f s%s: %s", self._name, 100.0 * share, spent, left, sentence
-        )
+        if tenths > self._tenths or new:
+            self._tenths = max(tenths, self._tenths)
+            left = ""
+            if 0.0 < share < 1.0:
+                left = f", about {(now - self._ready) * (1.0 - share) / share:.0f} s left"
+            self._tell(now, left)
+
+    def tell_in_silence(self) -> None:
+        """Tell what runs where no line was written for a while, until `ended` is set."""
+        while not self.ended.wait(_SILENCE):
+            if self._silent and self._sentence:
+                self._tell(time.monotonic(), "")
+            self._silent = True
+
+    def _tell(self, now: float, left: str) -> None:
+        self._silent = False
+        place = self._name, 100.0 * self._share, now - self._began
+        _LOGGER.info("%s %.0f %% after %.0f s%s: %s", *place, left, self._sentence)
 
 
 def empty_table(title: str, *headings: str, **look: Any) -> Table:

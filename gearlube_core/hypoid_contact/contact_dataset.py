@@ -31,13 +31,14 @@ from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_contact.unloaded_error import contact_ratio
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.progress import Progress, no_progress
+from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
 from gearlube_core.units import labelled
 
 PATH_POSITIONS = 161  # of the unloaded path of contact, over four pitches
 ERROR_POSITIONS = 64  # of the unloaded transmission error, over one
 EASE_GRID = (21, 41)
+_LOADED = 0.85  # of the time
 _REACH = 2.0  # pitches to either side of the reference points
 PATH_PHASES = np.linspace(-_REACH, _REACH, PATH_POSITIONS)
 
@@ -292,7 +293,7 @@ def analyse_contact(
     jobs : int, optional
         Processes; default: all processors.
     progress : callable, optional
-        Called with the share of positions that is done [-] and a sentence on what runs.
+        Called with the share that is done [-] and a sentence on what runs.
 
     Raises
     ------
@@ -306,6 +307,9 @@ def analyse_contact(
     progress(0.0, "elastic teeth")
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
     progress(0.0, "loaded contact")
-    cycle = run_cycle(file, stiffness, settings.cycle, store=store, jobs=jobs, progress=progress)
-    progress(1.0, "unloaded contact")
-    return contact_dataset(file, settings.cycle, cycle)
+    loaded = part_of(progress, 0.0, _LOADED)
+    cycle = run_cycle(file, stiffness, settings.cycle, store=store, jobs=jobs, progress=loaded)
+    progress(_LOADED, "unloaded contact")
+    found = contact_dataset(file, settings.cycle, cycle)
+    progress(1.0, "contact without load and under it is known")
+    return found

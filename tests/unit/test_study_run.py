@@ -2,6 +2,7 @@
 
 import logging
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Annotated
 
 import pytest
@@ -9,7 +10,7 @@ import typer
 from typer.testing import CliRunner
 
 from gearlube.cli.option_groups import MultiValueCommand
-from gearlube.cli.study_run import progress_on, run_next, study_run
+from gearlube.cli.study_run import _ProgressLines, progress_on, run_next, study_run
 from gearlube.report.page import write_report
 from gearlube.report.parts import Report
 
@@ -100,16 +101,15 @@ def test_progress_that_is_no_terminal_is_a_line_each_tenth_with_the_time_left(ca
 
 
 def test_progress_that_stands_still_is_told_each_half_a_minute(caplog, monkeypatch):
-    clock = [0.0]
-    monkeypatch.setattr("gearlube.cli.study_run.time.monotonic", lambda: clock[0])
+    """A span of half a minute has a line where none was written in it."""
+    clock = iter([0.0, 5.0, 60.0, 90.0])
+    monkeypatch.setattr("gearlube.cli.study_run.time.monotonic", lambda: next(clock))
     caplog.set_level(logging.INFO, "gearlube")
-    with progress_on("sweep") as report:
-        for _ in range(90):
-            clock[0] += 1.0
-            report(0.0, "compiling")
-    assert [one.getMessage() for one in caplog.records] == [
-        f"sweep 0 % after {30 * i} s: compiling" for i in (1, 2, 3)
-    ]
+    lines, spans = _ProgressLines("sweep"), iter([False, False, False, True])
+    lines.ended = SimpleNamespace(wait=lambda _: next(spans))
+    lines.report(0.0, "compiling")
+    lines.tell_in_silence()
+    assert caplog.messages == [f"sweep 0 % after {s} s: compiling" for s in (5, 60, 90)]
 
 
 def test_a_report_within_a_command_says_the_command(tmp_path, monkeypatch):

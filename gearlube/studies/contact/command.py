@@ -14,6 +14,7 @@ from gearlube.cli.example import print_example
 from gearlube.cli.exit_codes import console
 from gearlube.cli.options import ExampleOption, JobsOption, OverwriteOption
 from gearlube.cli.study_run import StudyRun, empty_table, study_run, tell_findings
+from gearlube_core.progress import part_of
 from gearlube_core.storage.file_names import pair_stem
 
 if TYPE_CHECKING:  # the study is loaded when the command runs
@@ -172,19 +173,20 @@ def contact(
             )
             _sensitivity(file, wanted, frame, jobs)
             return
-        with frame.results(2 * cycle.positions) as progress:
+        share = 1.0 - 0.1 * export - 0.3 * (films is not None)  # of the time, before these
+        with frame.results() as progress:
             results = run.run_contact(
                 file,
                 replace(usual, cycle=cycle),
                 folder=out,
                 jobs=jobs,
-                progress=progress,
+                progress=part_of(progress, 0.0, share),
             )
             if export:
-                progress(1.0, "writing flanks and gears")
+                progress(share, "writing flanks and gears")
                 write_gears(file, out / "gears")
             if films is not None:
-                progress(1.0, "films in the running axle (compiled the first time)")
+                progress(0.7, "films in the running axle (compiled the first time)")
                 animation = write_films(results, films, out)
         kept = None
         if gear.endswith(".toml") and replace(cycle, torques=CycleSettings().torques) == (
@@ -243,7 +245,7 @@ def _sensitivity(
         sensitivity_table,
     )
 
-    with frame.results(2 * settings.positions) as progress:
+    with frame.results() as progress:
         dataset = run_sensitivity(file, settings, folder=frame.out, jobs=jobs, progress=progress)
     frame.show(sensitivity_table(file.name, settings.torque, sensitivity_rows(dataset)))
     frame.written("sensitivity.nc", "sensitivity.csv", "figures/sensitivity.png")

@@ -33,11 +33,12 @@ from gearlube_core.hypoid_geometry.flank.tooth_solid import (
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
 from gearlube_core.mesh_table.netcdf import write_mesh_table
 from gearlube_core.mesh_table.table import MeshTable
-from gearlube_core.progress import Progress, no_progress
+from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import write_dataset
 from gearlube_core.storage.file_names import pair_stem
 from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE
 
+_COMPUTING = 0.8  # share of the time before files and figures
 _LIMITS = (
     "Quasi-static: the pair turns slowly. Vibration, friction and oil film are not in the contact.",
     "Teeth bend and tilt by finite elements; shafts, bearings and housing are rigid. Give "
@@ -105,7 +106,7 @@ def run_contact(
     jobs : int, optional
         Number of processes; default: all processors.
     progress : callable, optional
-        Called with the share of positions that is done [-] and a sentence on what runs.
+        Called with the share that is done [-] and a sentence on what runs.
 
     Raises
     ------
@@ -127,16 +128,20 @@ def run_contact(
         folder.mkdir(parents=True, exist_ok=True)
     store = None if folder is None else folder / POSITIONS
     dataset = Result.of(
-        analyse_contact(file, settings, store=store, jobs=jobs, progress=progress), "contact"
+        analyse_contact(
+            file, settings, store=store, jobs=jobs, progress=part_of(progress, 0.0, _COMPUTING)
+        ),
+        "contact",
     )
     if folder is not None:
-        progress(1.0, "writing report and figures")
+        progress(_COMPUTING, "writing report and figures")
         write_dataset(dataset, folder / "contact.nc")
         save_pictures(CONTACT_CATALOGUE, folder / "figures", dataset)
         write_report(contact_report(dataset, folder / "figures"), folder)
     results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
         write_mesh_table(results.mesh_table, folder / f"{pair_stem(file.name)}.nc")
+        progress(1.0, "report and mesh table are written")
     return results
 
 

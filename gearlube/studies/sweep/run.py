@@ -206,9 +206,11 @@ def run_sweep(
         modes = _modes_aside(
             stack, model, loads, speeds[len(speeds) // 2], settings, car_axle, to_build=to_build
         )
-        if to_build:
-            progress(0.0, "building the FMU of the axle")
-        archive = cached_hypoid_axle(mesh_table, axle=axle) if fmu is None else Path(fmu)
+        archive = (
+            cached_hypoid_axle(mesh_table, axle=axle, report=partial(progress, 0.0))
+            if fmu is None
+            else Path(fmu)
+        )
         progress(0.0, "starting the first points")
         directory = stack.enter_context(unpacked(archive))
         guid, kind = fmu_guid(directory), fmu_kind(directory)

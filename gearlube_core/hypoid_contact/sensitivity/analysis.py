@@ -38,7 +38,7 @@ from gearlube_core.hypoid_contact.tooth_body import pair_stiffness
 from gearlube_core.hypoid_contact.unloaded_error import UnloadedError, unloaded_error
 from gearlube_core.hypoid_geometry.flank.flank import Side
 from gearlube_core.hypoid_geometry.gear_file import HypoidGearFile
-from gearlube_core.progress import Progress, no_progress
+from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.process_pool import single_threaded
 from gearlube_core.storage.resumable import Record
 from gearlube_core.tooth_compliance.tooth_body import ToothBodySettings
@@ -188,9 +188,9 @@ def contact_sensitivity(
             folder=store,
             label=_label,
             jobs=jobs,
-            progress=progress,
+            progress=part_of(progress, 0.0, 0.9),
         )
-        progress(1.0, "unloaded contact")
+        progress(0.9, "unloaded contact")
         parts = {
             side: {
                 **stack_records(found[side, float(phase)] for phase in settings.phases),
