@@ -20,7 +20,7 @@ from docs.measured_file.make import lines_rows
 from docs.page import Page
 from drivetrain.axle_file.axle_file import AxleFile
 from drivetrain.axle_file.read_axle import read_axle
-from drivetrain.train.part_section import BODIES, contact_section, section_of
+from drivetrain.train.part_section import BODIES, contact_section, files_in, section_of
 from drivetrain.train.train_file import TrainFile
 from fmu_src.axle_arguments import start_arguments
 from fmu_src.variables import HYPOID_AXLE
@@ -250,10 +250,14 @@ def fields_text() -> str:
         parts: dict[str, Any] = {}
         if model is TrainFile:
             parts = {
-                section: {kind: section_of(one).model_json_schema() for kind, one in known.items()}
+                section: {
+                    kind: section_of(one).model_json_schema() | {"files": files_in(one)}
+                    for kind, one in known.items()
+                }
                 for section, known in (("bodies", BODIES), ("elements", shipped))
             }
-        kind = {"title": model.title, "files": model.files, "unmodelled": dict(model.unmodelled),
+        kind = {"package": model.package, "prefix": model.prefix, "title": model.title,
+                "files": model.files, "unmodelled": dict(model.unmodelled),
                 "schema": model.model_json_schema(), "parts": parts}  # fmt: skip
         text = json.dumps(_without_titles(kind), separators=(",", ":"), default=float)
         lines.append(f"{json.dumps(name)}:{text}")

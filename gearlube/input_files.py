@@ -33,6 +33,8 @@ _MODELS = {
     "hypoid": ("HypoidCase",),
     "rough": ("RoughCase",),
 }
+_OTHER_NAMES = {"OilFile", "MeasuredFile"}  # oils have other names too, measured gears none
+_CYCLE = "NAME|FILE"
 _BY_COMMAND = ("GEAR", "CASE", "FILE")
 
 
@@ -51,6 +53,8 @@ def read_files_first(command: Any) -> None:
             for value in values if isinstance(values, list | tuple) else [values]:
                 if isinstance(value, str | Path) and one.name not in ("out", "program"):
                     _check_file(str(value), models)
+                    if word == _CYCLE and not Path(value).suffix and not os.path.exists(value):
+                        _check_cycle(str(value))
         return run(**given)
 
     if run is not None:
@@ -69,6 +73,10 @@ def _check_file(value: str, models: Sequence[str]) -> None:
             from gearlube_core.input_file.early_check import check_early
 
             check_early(value, models)
+        elif value and models and not path.suffix and not {*models} & _OTHER_NAMES:
+            from gearlube_core.input_file.early_check import check_name
+
+            check_name(value, models)
         elif value.endswith(".toml") and os.path.lexists(value):
             from gearlube_core.input_file.input_file import read_toml
 
@@ -81,3 +89,12 @@ def _check_file(value: str, models: Sequence[str]) -> None:
             from gearlube_core.storage.atomic_file import check_unpacked
 
             check_unpacked(path)
+
+
+def _check_cycle(name: str) -> None:
+    """Exit with the reason where no cycle has this name."""
+    from drivetrain.cycle.traces import NAMED, DriveCycle
+
+    with exit_on_error():
+        if name.lower() not in NAMED:
+            DriveCycle.given(name)

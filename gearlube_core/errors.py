@@ -91,6 +91,7 @@ def why(error: Exception) -> str:
 _EXAMPLES = {
     "axle file": "sweep",
     "gear file": "contact",
+    "hypoid gear file": "contact",
     "blank file": "design",
     "bearing file": "bearing",
     "train file": "drivetrain",
@@ -113,6 +114,7 @@ _MADE_BY = {
     "line_model": ("film model", "`gearlube film-model fit` writes one"),
     "film_model": ("film model", "`gearlube film-model fit` writes one"),
     "matrices_file": ("file of matrices", "numpy.savez writes one, see docs/trains.md"),
+    "gear_set.gear_file": ("hypoid gear file", ""),
     "gear_file": ("gear file", ""),
     "gear": ("gear file", ""),
     "axle_file": ("axle file", ""),
@@ -154,7 +156,7 @@ def unread(what: str, path: str | Path, error: Exception) -> str:
         if command := _EXAMPLES.get(what):
             start = f"; `gearlube {command} --example > {name}` writes one to start from"
         if what == "gear file":
-            start += ", with `gearlube helical` of a helical pair"
+            start += f" of a hypoid pair, `gearlube helical --example > {name}` of a helical one"
         return f"The {what} {name} was not found in {_folder(path)}{start}"
     return f"The {what} {path} cannot be read: {why(error)}"
 

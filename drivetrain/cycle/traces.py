@@ -11,7 +11,6 @@ import numpy as np
 
 from gearlube_core.arrays import Array
 from gearlube_core.checks import check_option
-from gearlube_core.dynamics.ranges import MAX_SPEED
 from gearlube_core.errors import ParameterError
 from gearlube_core.extras import extra_package
 from gearlube_core.input_file.table import TABLES
@@ -276,6 +275,8 @@ class DriveCycle:
             object.__setattr__(self, "notes", (*self.notes, note))
 
     def _check_values(self) -> None:
+        from gearlube_core.dynamics.ranges import MAX_SPEED  # imports what computes
+
         self._rest_is_zero("pinion_speed" if self.speed is None else "speed")
         if self.speed is None:
             self._within(

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from gearlube_core.input_file.field_notes import notes_of_schema, sentence
-from gearlube_core.input_file.input_file import read_toml
+from gearlube_core.input_file.input_file import check_given, read_toml, shipped_names
 from gearlube_core.input_file.refusal import check_places, named_places, refusal, wrong_fields
 
 FIELDS = "fields.json"
@@ -34,10 +34,19 @@ _LIMITS = {
     "exclusiveMinimum": ("greater_than", "gt", lambda value, limit: value > limit),
 }
 
+# models of the files that a file names, by the field or its last part
+_GEARS, _OIL = ("HypoidGearFile", "HelicalGearFile"), ("OilFile",)
+_NAMED = {
+    "gear_file": _GEARS, "gear": _GEARS, "axle_file": ("AxleFile",), "oil": _OIL,
+    "oil_file": _OIL, "oil.file": _OIL, "oil.name": _OIL,
+}  # fmt: skip
+
 
 class FileKind(NamedTuple):
     """A kind of input file, as `fields.json` has it."""
 
+    package: str
+    prefix: str
     title: str
     files: Sequence[str]  # fields that name files
     unmodelled: Mapping[str, str]
@@ -66,7 +75,27 @@ def check_early(path: str | Path, names: Sequence[str]) -> None:
         raise refusal(data, str(path), errors, notes, kind.title, kind.unmodelled)
     if wrong := [one for section in kind.parts for one in _of_parts(data, section, kind)]:
         raise wrong_fields(str(path), wrong)
-    check_places(path, named_places(data, kind.files, Path(path).parent.absolute()))
+    fields = [*kind.files, *(one for section in kind.parts for one in _files(data, section, kind))]
+    places = named_places(data, fields, Path(path).parent.absolute())
+    check_places(path, places)
+    for field, place in places.items():
+        named = _NAMED.get(field) or _NAMED.get(field.rpartition(".")[2])
+        if named and place.suffix == ".toml":
+            check_early(place, named)
+
+
+def check_name(name: str, names: Sequence[str]) -> None:
+    """Raise ParameterError for a name that is no path and that no file of these models has."""
+    kinds = [file_kinds()[one] for one in names]
+    shipped = [one for kind in kinds for one in shipped_names(kind.package, kind.prefix)]
+    check_given(name, kinds[0].title, shipped)
+
+
+def _files(data: Mapping[str, Any], section: str, kind: FileKind) -> Iterator[str]:
+    for name, given in data[section].items():
+        of_kind = given.get("kind", "rigid") if isinstance(given, dict) else ""
+        for field in kind.parts[section].get(str(of_kind), {}).get("files", ()):
+            yield f"{section}.{name}.{field}"
 
 
 def _of_parts(data: Mapping[str, Any], section: str, kind: FileKind) -> Iterator[str]:

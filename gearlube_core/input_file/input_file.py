@@ -215,15 +215,9 @@ def shipped_names(package: str, prefix: str = "") -> tuple[str, ...]:
     return tuple(sorted(s.removeprefix(prefix) for s in stems if s.startswith(prefix)))
 
 
-def check_given(name: str, package: str, title: str) -> None:
-    """Raise ParameterError for a name that no file and no shipped one has, without their class.
-
-    Also for a file that is no readable TOML. `package` and `title` are those of the class.
-    """
-    shipped = shipped_names(package)
-    if _is_path(name, shipped):
-        read_toml(name, title)
-    elif name not in shipped:
+def check_given(name: str, title: str, shipped: Collection[str]) -> None:
+    """Raise ParameterError for a name that is neither a path nor one of a shipped file."""
+    if not _is_path(name, shipped) and name not in shipped:
         raise _unknown(name, title, shipped)
 
 

@@ -101,18 +101,22 @@ def test_a_file_that_another_names_and_is_not_there_is_named_with_what_writes_it
 
 @pytest.mark.parametrize(
     "arguments",
-    [["map"], ["runup"], ["damage"], ["vary", "map"], ["build-fmu", "--axle"], ["drivetrain"]],
+    [["map", "bad.toml"], ["runup", "bad.toml"], ["damage", "mohammadpour"],
+     ["vary", "map", "bad.toml"], ["build-fmu", "--axle", "bad.toml"], ["drivetrain", "train.toml"],
+     ["cycle", "--cycle", "wltp"]],
     ids=" ".join,
-)
+)  # fmt: skip
 def test_a_typo_is_refused_before_what_computes_is_imported(arguments, tmp_path):
-    """Numba and SciPy take seconds to import."""
+    """Numba and SciPy take seconds to import; the train file names one with a wrong field."""
     (tmp_path / "bad.toml").write_text("[gear_sett]\nx = 1\n")
+    train = TrainFile.shipped_text("e_axle").replace('"he_2007"', '"bad.toml"')
+    (tmp_path / "train.toml").write_text(train)
     script = (
         "import sys\nfrom gearlube.command import app\ntry:\n    app(sys.argv[1:])\n"
         "except SystemExit as end:\n    print(end.code, {'numba', 'scipy'} & sys.modules.keys())"
     )
     run = subprocess.run(
-        [sys.executable, "-c", script, *arguments, "bad.toml"],
+        [sys.executable, "-c", script, *arguments],
         cwd=tmp_path, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert run.stdout == "2 set()\n"

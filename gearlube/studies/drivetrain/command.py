@@ -102,7 +102,6 @@ def drivetrain(
         return
     from gearlube_core.checks import check_within
     from gearlube_core.errors import ParameterError
-    from gearlube_core.input_file.input_file import check_given
 
     with study_run("drivetrain", out, overwrite=overwrite) as run:
         check_within("--duration-ms", duration_ms, 1e-3, 1e7, "ms")
@@ -118,8 +117,6 @@ def drivetrain(
             raise ParameterError("--cycle chooses the map, got --map-speeds or --map-torques too. "
                                  "Leave these out.")  # fmt: skip
         from_rexs = Path(file).suffix.lower() in REXS_ENDINGS
-        if not from_rexs:
-            check_given(file, "drivetrain.train", "train file")
         # loaded after the options are checked, as this takes seconds
         from drivetrain.cycle.traces import DriveCycle
         from drivetrain.train.train_file import TrainFile
