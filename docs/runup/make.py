@@ -54,7 +54,9 @@ def main() -> None:
         "mesh orders 1 to 3 of the transmission error | within {} % at 60 km/h, {} % at 100 km/h |",
         *(f"{steady_off(car, speed):.2f}" for speed in STEADY_KMH),
     )
-    page.fill("80 °C, preload {} N. What the report", f"{ramp.attrs['bearing_preload']:.0f}")
+    page.fill(
+        "80 °C, preload {} N. Findings of the report:", f"{ramp.attrs['bearing_preload']:.0f}"
+    )
     found = (f"- **{one.headline}** {one.detail}".rstrip() for one in findings(ramp)[:4])
     page.paragraph("Findings of the report:", "\n".join(found))
     page.write()
