@@ -15,6 +15,7 @@ from gearlube_core.tooth_contact.sharp_edge import EDGE_PRESSURE, EDGE_WORDS
 if TYPE_CHECKING:
     from gearlube_core.dynamics.hypoid_mesh.parameters import HypoidAxleParameters
 
+_LESS = 1.1  # times, above which an amplitude is said to be less
 _WORDS = {
     "misalignment.pinion_offset": "misalignment E (offset)",
     "misalignment.pinion_axial": "misalignment P (pinion)",
@@ -120,6 +121,16 @@ def source_colour(source: str) -> str:
     False
     """
     return SOURCE_COLOURS.get(source, GREY)
+
+
+def held_words(size: str, ratio: float) -> str:
+    """Return what a mesh order is without the car; `ratio`: it is with the car, over that.
+
+    >>> held_words("20 N", 3.0)
+    'Without the car, at held speed, the order has 20 N there, 3.0 times less.'
+    """
+    less = f", {ratio:#.2g} times less" if ratio >= _LESS else ""
+    return f"Without the car, at held speed, the order has {size} there{less}."
 
 
 def not_modelled(losing: Collection[str]) -> tuple[str, ...]:

@@ -62,6 +62,7 @@ def record():
         channels=motion | dict(zip(FORCES, forces, strict=True)),
         slow_time=slow,
         energies=np.outer(slow, POWERS),
+        outside=slow < 0.5 * DURATION,
         warnings=("one", "two"),
         torques=(np.linspace(80.0, 90.0, 5), np.full(5, 2.0)),
     )
@@ -127,6 +128,7 @@ def test_every_track_loss_mode_and_shape_of_a_ramp_has_its_known_values_and_unit
         "axis": ("", AXES),
         "slow_time": ("s", slow),
         "power_in": ("W", np.full(60, 2000.0)),
+        "range_exceeded": ("1", np.arange(60) < 30),
         "loss": ("W", np.tile(POWERS[1:], (60, 1))),
         "torque_time": ("s", [0.0, 0.3, 0.6, 0.9, 1.2]),
         "pinion_torque": ("N m", [80.0, 82.5, 85.0, 87.5, 90.0]),

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
-from gearlube.plotting.range_words import range_text
-from gearlube.plotting.words import largest_losses, not_modelled
+from gearlube.plotting.range_words import range_text, usable_words
+from gearlube.plotting.words import held_words, largest_losses, not_modelled
 from gearlube.report.churning import regime_findings
 from gearlube.report.numbers import quantity_text
 from gearlube.report.parts import GOOD, NOTE, WARNING, Finding, Number
 from gearlube.studies.runup import levels
+from gearlube.studies.runup.critical import Critical, critical_speeds
+from gearlube.studies.runup.without_car import HELD
 from gearlube_core.arrays import Array
 from gearlube_core.units import ZERO_CELSIUS, rads_to_rpm
 
-SWEEP_RATE = 3.6  # z^2 f^2 Hz/s, [iso_7626_2]: 216 z^2 f^2 Hz/min
 NEAR = 0.05  # of a natural frequency, within which a crest is said to be a resonance
 _MARKED = 3  # mesh orders whose critical speeds are listed
 _NAMED = 3  # critical speeds that are named one by one
 _OF_CAR = 0.1  # of the strain energy of a mode, from which the car counts
+_PARTS = 40  # of a ramp, by speed
 _NARROW = 0.15  # of a speed: a margin below it is worth a warning
 
 
@@ -80,69 +81,6 @@ def peaks(dataset: xr.Dataset) -> list[Peak]:
     return sorted(found, key=lambda one: -one.force)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Critical:
-    """A speed at which a mesh order meets a natural frequency.
-
-    Parameters
-    ----------
-    mesh_order : int
-    mode : str
-    speed_rpm, frequency, damping : float
-        [rpm], [Hz], ratio [-].
-    margin : float
-        By what share of that speed it lies outside the ramp [-]; 0 inside, below 0 below the ramp.
-    force : float
-        Of that order there, all bearings and directions, rms [N]; NaN outside.
-    hurry : float
-        Rate at which the order passes the mode, divided by the highest rate at which the
-        resonance still builds up [-].
-    """
-
-    mesh_order: int
-    mode: str
-    speed_rpm: float
-    frequency: float
-    damping: float
-    margin: float
-    force: float
-    hurry: float
-
-
-def critical_speeds(dataset: xr.Dataset) -> list[Critical]:
-    """Return all critical speeds that the dataset knows, ascending."""
-    speeds = levels.rpm(dataset, "mode_speed")
-    low, high = float(speeds[0]), float(speeds[-1])
-    total = levels.total_force(dataset, "bearing_force_track").values
-    along = np.argsort(levels.rpm(dataset))
-    tracks, at = total[along], levels.rpm(dataset)[along]
-    teeth = levels.teeth(dataset)
-    rate = abs(high - low) / 60.0 / float(dataset.attrs["setting_duration"])
-    found = []
-    for place, order in enumerate(dataset["mesh_order"].values):
-        for k, mode in enumerate(dataset["mode"].values):
-            speed = rads_to_rpm(float(dataset["critical_speed"].values[k, place]))
-            if not math.isfinite(speed):
-                continue
-            damping = float(dataset["critical_damping"].values[k, place])
-            frequency = float(order * teeth * speed / 60.0)
-            inside = low <= speed <= high
-            end = high if speed > high else low
-            found.append(
-                Critical(
-                    mesh_order=int(order),
-                    mode=str(mode),
-                    speed_rpm=speed,
-                    frequency=frequency,
-                    damping=damping,
-                    margin=0.0 if inside else speed / end - 1.0,
-                    force=float(np.interp(speed, at, tracks[:, place])) if inside else math.nan,
-                    hurry=order * teeth * rate / (SWEEP_RATE * (damping * frequency) ** 2),
-                )
-            )
-    return sorted(found, key=lambda one: one.speed_rpm)
-
-
 def mean_loss(dataset: xr.Dataset) -> Array:
     """Return the mean loss by source over the fastest tenth of the ramp [W]."""
     loss = dataset["loss"].values
@@ -181,6 +119,10 @@ def _nearest(peak: Peak, critical: list[Critical]) -> Critical | None:
     return min(of_order, key=lambda c: abs(c.speed_rpm / peak.speed_rpm - 1.0), default=None)
 
 
+def _is_at(peak: Peak, near: Critical | None) -> bool:
+    return near is not None and abs(near.speed_rpm / peak.speed_rpm - 1.0) < NEAR
+
+
 def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     top, *others = peaks(dataset)
     detail = (
@@ -188,22 +130,23 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
         f"{top.direction}. "
     )
     near = _nearest(top, critical)
-    resonant = near is not None and abs(near.speed_rpm / top.speed_rpm - 1.0) < NEAR
+    resonant = _is_at(top, near)
+    shares = dataset["shape_share"].values
+    most = int(np.argmax(shares))
+    share, mode = f"{100.0 * shares[most]:.0f} %", str(dataset["mode"].values[most])
     if near is not None:
         off = round(100.0 * (near.speed_rpm / top.speed_rpm - 1.0))
         how_far = f"{abs(off)} % {'above' if off > 0 else 'below'}" if off else "at"
         detail += (
             f"The nearest critical speed of that order is {how_far} this speed: natural mode "
-            f"'{near.mode}', {near.frequency:.0f} Hz. "
+            f"'{near.mode}', {near.frequency:.0f} Hz"
         )
+        same = near.mode == mode
+        detail += f", with {share} of the kinetic energy there. " if same else ". "
+    if near is None or near.mode != mode:
+        detail += f"{share} of the kinetic energy there is in the mode '{mode}'. "
     if resonant and near is not None:
-        detail += _of_the_car(dataset, near.mode)
-    shares = dataset["shape_share"].values
-    most = int(np.argmax(shares))
-    detail += (
-        f"{100.0 * shares[most]:.0f} % of the kinetic energy there is in the mode "
-        f"'{dataset['mode'].values[most]}'. "
-    )
+        detail += _of_the_car(dataset, near.mode, top.force)
     first, last = levels.rpm(dataset, "mode_speed")[[0, -1]]
     if not 0.999 * first <= top.speed_rpm <= 1.001 * last:  # in a car
         detail += "The speed lies outside the ramp because the tyres slip. "
@@ -224,18 +167,19 @@ def _loudest(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     ]
 
 
-def _of_the_car(dataset: xr.Dataset, mode: str) -> str:
-    """Return how much of a mode is in the car, and how to compute the ramp without the car."""
+def _of_the_car(dataset: xr.Dataset, mode: str, force: float) -> str:
+    """Return how much of a mode is in the car, and the force [N] of the axle without the car."""
     strain = dataset.get("mode_car_strain")
     share = 0.0 if strain is None else float(strain.sel(mode=mode))
     if share < _OF_CAR:
         return ""
     given = str(dataset.attrs.get("inputs_assumed", ""))
     assumed = ", whose stiffnesses are assumed" if "driveline.propshaft_stiffness" in given else ""
-    return (
-        f"{100.0 * share:.0f} % of its strain energy is in springs of the car{assumed}. Run "
-        "without --engine-orders for the axle without the car. "
-    )
+    said = f"{100.0 * share:.0f} % of its strain energy is in springs of the car{assumed}. "
+    if HELD not in dataset:
+        return said
+    held = float(dataset[HELD])
+    return f"{said}{held_words(quantity_text(held, 'N rms'), force / held)} "
 
 
 def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
@@ -244,21 +188,24 @@ def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     # an order that is largest at an end of the ramp may still grow beyond it
     asked = {loudest.mesh_order, *(one.mesh_order for one in others if one.at_end)}
     outside = [one for one in critical if one.margin != 0.0 and one.mesh_order in asked]
+    near = _nearest(loudest, critical)
+    rest = [one for one in inside if not (one is near and _is_at(loudest, near))]  # not named yet
     found = []
     if inside:
         named_parts = "; ".join(
             f"order {one.mesh_order} with '{one.mode}' at {_speed(dataset, one.speed_rpm)}, "
             f"{quantity_text(one.force, 'N')}"
-            for one in inside[:_NAMED]
+            for one in rest[:_NAMED]
         )
-        more = len(inside) - _NAMED
+        more = len(rest) - _NAMED
         found.append(
             Finding(
                 NOTE,
                 f"Mesh orders 1 to {_MARKED} meet natural frequencies at {len(inside)} speeds of "
                 "the ramp.",
-                f"By force: {named_parts}{f'; and {more} more' if more > 0 else ''}. The table of "
-                "critical speeds has all.",
+                f"By force{'' if rest == inside else ', after that of the loudest'}: "
+                f"{named_parts}{f'; and {more} more' if more > 0 else ''}. The table of critical "
+                "speeds has all.",
             )
         )
     if outside:
@@ -348,11 +295,19 @@ def _ranges(dataset: xr.Dataset) -> list[Finding]:
     if not left:
         return [Finding(GOOD, "Nothing left the range of a formula or table.")]
     count = len(left.splitlines())
+    words = ""
+    if "range_exceeded" in dataset:
+        out = dataset["range_exceeded"].values > 0
+        time, speed = dataset["time"].values, rads_to_rpm(1.0) * dataset["pinion_speed"].values
+        speed = np.interp(dataset["slow_time"].values, time, speed)
+        parts = np.array_split(np.argsort(speed), min(_PARTS, speed.size))
+        inside = np.array([not out[part].any() for part in parts])
+        words = usable_words(inside, [(np.array([speed[part].mean() for part in parts]), "rpm")])
     return [
         Finding(
             WARNING,
             f"{count} {'quantity' if count == 1 else 'quantities'} left the range of a formula or "
-            "table; what is computed there is extrapolated.",
+            f"table; what is computed there is extrapolated. {words}",
             range_text(left.replace("\n", " ")),
         )
     ]

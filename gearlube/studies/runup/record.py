@@ -61,6 +61,8 @@ class RampRecord:
         Times of `energies` [s], shape (m,).
     energies : array
         `ENERGIES` since the start [J], shape (m, sources + 1).
+    outside : array of bool
+        Something left the range of its formula or table then, shape (m,).
     warnings : tuple of str
         What left the range of its formula or table.
     torques : tuple of array
@@ -71,6 +73,7 @@ class RampRecord:
     channels: dict[str, Array]
     slow_time: Array
     energies: Array
+    outside: Array
     warnings: tuple[str, ...]
     torques: tuple[Array, Array]
 
@@ -235,12 +238,15 @@ def _march(
     slow = max(1, round(_SLOW / h))
     values = np.empty((length, columns.size))
     kept = np.empty((math.ceil(length / slow), energies.size))
+    outside = np.zeros(kept.shape[0], dtype=bool)
     out, step, held = axle.outputs, axle.step, driver.step
     for i in range(length):
         out.take(columns, out=values[i])
         if i % slow == 0:
             kept[i // slow] = out[energies]
-            for name, sentence in axle.exceeded().items():
+            exceeded = axle.exceeded()
+            outside[i // slow] = bool(exceeded)
+            for name, sentence in exceeded.items():
                 warned.setdefault(name, f"{sentence} First at t = {max(0.0, driver.time):.3g} s.")
         row = values[i]
         torques = held(h, *row[:_SHAFTS].tolist())
@@ -251,6 +257,7 @@ def _march(
         "motion": motion.copy(),
         "forces": both[:, 0::2] + both[:, 1::2],
         "energies": kept,
+        "outside": outside,
         "axle_state": axle.get_state(),
         "driver_state": driver.get_state(),
         "warned": np.array([f"{name}\n{text}" for name, text in warned.items()], dtype=str),
@@ -282,6 +289,7 @@ def _joined(
         channels=channels,
         slow_time=slow_time,
         energies=energies,
+        outside=np.concatenate([part["outside"] for part in parts]),
         warnings=tuple(warned.values()),
         torques=torques,
     )

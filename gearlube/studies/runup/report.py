@@ -17,9 +17,10 @@ from gearlube.report.page import write_report
 from gearlube.report.parts import INFERRED, Column, Figure, Input, Report, Table
 from gearlube.report.pictures import shown
 from gearlube.studies.runup import levels
+from gearlube.studies.runup.critical import critical_speeds
 from gearlube.studies.runup.figures.catalogue import CATALOGUE
 from gearlube.studies.runup.figures.moving.parts import moving_figures
-from gearlube.studies.runup.findings import critical_speeds, findings, numbers, peaks
+from gearlube.studies.runup.findings import findings, numbers, peaks
 from gearlube.studies.runup.run import FILES
 from gearlube_core.units import kelvin_to_celsius, rads_to_rpm
 

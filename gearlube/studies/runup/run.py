@@ -6,9 +6,10 @@ import shutil
 from pathlib import Path
 
 from gearlube.report.result import Result
-from gearlube.studies.runup.dataset import runup_dataset
+from gearlube.studies.runup.dataset import described, runup_dataset
 from gearlube.studies.runup.record import record_ramp
-from gearlube.studies.runup.settings import RunupSettings
+from gearlube.studies.runup.settings import VEHICLE, RunupSettings
+from gearlube.studies.runup.without_car import HELD, force_without_car
 from gearlube_core.progress import Progress, no_progress, part_of
 from gearlube_core.storage.atomic_file import read_dataset, write_compressed_dataset
 
@@ -62,7 +63,10 @@ def run_runup(
     parts = None if out is None else out / "parts"
     record = record_ramp(settings, folder=parts, progress=part_of(progress, 0.0, _OF_MARCH))
     progress(_OF_MARCH, "orders and spectra")
-    dataset = Result.of(runup_dataset(settings, record), "runup")
+    dataset = runup_dataset(settings, record)
+    if settings.driver == VEHICLE:
+        dataset[HELD] = force_without_car(settings, dataset)
+    dataset = Result.of(described(dataset), "runup")
     if out is not None:
         progress(1.0, "writing the file")
         out.mkdir(parents=True, exist_ok=True)

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from gearlube.plotting.range_words import usable_words
-from gearlube.plotting.words import largest_losses, not_modelled
+from gearlube.plotting.words import held_words, largest_losses, not_modelled
 from gearlube.report.churning import regime_findings
 from gearlube.report.films import (
     bearing_drag,
@@ -159,10 +159,7 @@ def _of_the_car(dataset: xr.Dataset, near: NearMode, amplitude: float, variable:
     if without > 0.0:
         force = variable.startswith("bearing")
         size = quantity_text(without if force else 1e6 * without, "N" if force else "µm")
-        said += (
-            f" Without the car, at held speed, the order has {size} there, "
-            f"{quantity_text(amplitude / without, '', 2)} times less."
-        )
+        said += f" {held_words(size, amplitude / without)}"
     return said
 
 
