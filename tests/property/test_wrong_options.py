@@ -115,7 +115,7 @@ def nothing_computes(monkeypatch, tmp_path):
     def reached(*_arguments: Any, **_named: Any) -> None:
         raise typer.Exit(REACHED)
 
-    def built(mesh_table: Path | None, *, axle: str | None) -> None:
+    def built(mesh_table: Path | None, *, axle: str | None, **_report: Any) -> None:
         axle_definition(mesh_table, axle)
         reached()
 
