@@ -140,8 +140,9 @@ def kept_after(*states):
     more = 1.0 + node_films.NUDGE
     for k, (F, w) in enumerate(states):
         if k == 0:
-            nudged = power_law(more * F, w), power_law(F, more * w)
-            node_films.keep_flank(films, 3, F, w, OIL, power_law(F, w), *nudged)
+            node_films.keep_flank(films, 3, F, w, OIL, power_law(F, w))
+            node_films.keep_slopes(films, 3, power_law(more * F, w), False)
+            node_films.keep_slopes(films, 3, power_law(F, more * w), True)
         else:
             assert node_films.tells_slopes(films, 3, F, w, OIL)
             node_films.follow_flank(films, 3, F, w, power_law(F, w))

@@ -229,6 +229,7 @@ def test_the_commands_pass_the_table_on(
         raise InterruptedRunError("Stopped.")
 
     monkeypatch.setattr(sweep_run, "run_sweep", stopped)
+    monkeypatch.chdir(tmp_path)  # away from results of an earlier sweep
     CliRunner().invoke(cli.app, ["sweep", "--mesh-table", str(table)])
     assert seen[0]["mesh_table"] == table
 

@@ -123,7 +123,7 @@ def flank_sum(
     friction : ndarray of shape (N_FRICTION,)
         Viscous and boundary friction over load of each pair [-], the rolling forces [N], bounds
         of the friction over load [-], that of the power lost in friction [W], which
-        is always computed, and the films at the nodes, see `state.keep_flank`.
+        is always computed, and the films at the nodes, see `keep_flank`.
     channels : ndarray of shape (N_CHANNELS,)
         Scratch memory, its values are lost.
     film_model : ndarray

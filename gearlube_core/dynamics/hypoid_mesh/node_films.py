@@ -75,9 +75,10 @@ def still_holds(films: Array, node: int, force: float, speed: float, temperature
 
 
 @kernel
-def _keep_state(
+def keep_flank(
     films: Array, node: int, force: float, speed: float, temperature: float, flank: NodeFlank
 ) -> None:
+    """Keep a flank at a node; its slopes are those from before. Arguments as in `still_holds`."""
     at = place_of_node(node)
     films[at + _NODE] = node + 1.0
     films[at + _FORCE] = force
@@ -88,28 +89,15 @@ def _keep_state(
 
 
 @kernel
-def keep_flank(
-    films: Array,
-    node: int,
-    force: float,
-    speed: float,
-    temperature: float,
-    flank: NodeFlank,
-    under_force: NodeFlank,
-    at_speed: NodeFlank,
-) -> None:
-    """Keep a flank at a node, and how it changes with force and with speed.
+def keep_slopes(films: Array, node: int, nudged: NodeFlank, over_speed: bool) -> None:
+    """Keep how the flank that is kept at a node changes with force, or with speed.
 
-    Parameters
-    ----------
-    flank, under_force, at_speed : NodeFlank
-        As it is, under a force and at speeds greater by NUDGE; others as in `still_holds`.
+    `nudged` is the flank where that one is greater by NUDGE.
     """
-    _keep_state(films, node, force, speed, temperature, flank)
     at = place_of_node(node)
+    slopes = at + (_OVER_SPEED if over_speed else _OVER_FORCE)
     for i in range(_SLOPED):
-        films[at + _OVER_FORCE + i] = (under_force[i] - flank[i]) / NUDGE
-        films[at + _OVER_SPEED + i] = (at_speed[i] - flank[i]) / NUDGE
+        films[slopes + i] = (nudged[i] - films[at + _VALUES + i]) / NUDGE
 
 
 @kernel
@@ -162,7 +150,7 @@ def follow_flank(films: Array, node: int, force: float, speed: float, flank: Nod
         missed = (done - over_force * more_force - over_speed * more_speed) / square
         films[at + _OVER_FORCE + i] = over_force + missed * more_force
         films[at + _OVER_SPEED + i] = over_speed + missed * more_speed
-    _keep_state(films, node, force, speed, films[at + _OIL], flank)
+    keep_flank(films, node, force, speed, films[at + _OIL], flank)
 
 
 @kernel

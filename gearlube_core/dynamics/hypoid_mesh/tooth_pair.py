@@ -11,6 +11,7 @@ from gearlube_core.dynamics.hypoid_mesh.node_films import (
     flank_between,
     follow_flank,
     keep_flank,
+    keep_slopes,
     still_holds,
     tells_slopes,
 )
@@ -171,22 +172,26 @@ def _renew_node(
     channels = part(window, place * N_CHANNELS, N_CHANNELS)
     entrainment = channels[ENTRAIN] * motion.w_p
     sliding = sliding_speed(motion, channels)
-    F = abs(force)
-    flank = _flank_under(F, entrainment, sliding, channels, oil, law, film_model)
-    if tells_slopes(films, place, force, motion.w_p, oil.temperature):
-        follow_flank(films, place, force, motion.w_p, flank)
-        return
-    more = 1.0 + NUDGE
-    keep_flank(
-        films,
-        place,
-        force,
-        motion.w_p,
-        oil.temperature,
-        flank,
-        _flank_under(more * F, entrainment, sliding, channels, oil, law, film_model),
-        _flank_under(F, more * entrainment, more * sliding, channels, oil, law, film_model),
-    )
+    from_kept = tells_slopes(films, place, force, motion.w_p, oil.temperature)
+    # one evaluation in a loop, so that compiled code has it once
+    for k in range(1 if from_kept else 3):
+        more_force = 1.0 + NUDGE if k == 1 else 1.0
+        more_speed = 1.0 + NUDGE if k == 2 else 1.0
+        flank = _flank_under(
+            more_force * abs(force),
+            more_speed * entrainment,
+            more_speed * sliding,
+            channels,
+            oil,
+            law,
+            film_model,
+        )
+        if k > 0:
+            keep_slopes(films, place, flank, k == 2)
+        elif from_kept:
+            follow_flank(films, place, force, motion.w_p, flank)
+        else:
+            keep_flank(films, place, force, motion.w_p, oil.temperature, flank)
 
 
 @kernel
@@ -210,8 +215,9 @@ def flank_at_nodes(
     """
     before, t = pair_node(n_nodes, z_p, motion.angle, pair)
     after = (before + 1) % n_nodes
-    _renew_node(before, motion, force, window, oil, law, film_model, films)
-    _renew_node(after, motion, force, window, oil, law, film_model, films)
+    for k in range(min(2, n_nodes)):  # a compiler that knew that it is 2 would write out both
+        place = (before + k) % n_nodes
+        _renew_node(place, motion, force, window, oil, law, film_model, films)
     return flank_between(films, before, after, t, force, motion.w_p)
 
 
