@@ -154,9 +154,10 @@ def unread(what: str, path: str | Path, error: Exception) -> str:
     if isinstance(error, FileNotFoundError):
         name, start = Path(path).name, ""
         if command := _EXAMPLES.get(what):
-            start = f"; `gearlube {command} --example > {name}` writes one to start from"
+            kind = "of a hypoid pair" if what == "gear file" else "to start from"
+            start = f"; `gearlube {command} --example > {name}` writes one {kind}"
         if what == "gear file":
-            start += f" of a hypoid pair, `gearlube helical --example > {name}` of a helical one"
+            start += f", `gearlube helical --example > {name}` one of a helical pair"
         return f"The {what} {name} was not found in {_folder(path)}{start}"
     return f"The {what} {path} cannot be read: {why(error)}"
 

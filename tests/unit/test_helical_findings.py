@@ -12,7 +12,7 @@ from gearlube.studies.helical.figures.layout import stems
 from gearlube.studies.helical.findings import findings, largest_error, least_unstable, meeting
 from gearlube.studies.helical.report import _critical_speeds, _inputs, _losses, numbers
 from gearlube.studies.helical.settings import HelicalSettings
-from gearlube.studies.helical.summary import summary_rows
+from gearlube.studies.helical.summary import losses_rows, summary_rows
 from gearlube_core.helical_geometry.gear_file import HelicalGearFile
 from tests.helpers.helical_results import (
     RPM,
@@ -192,6 +192,12 @@ def test_the_band_of_the_losses_stands_in_finding_key_numbers_and_table():
     row = _losses(of.sel(temperature=[40.0])).rows[-1]
     assert row[3:6] == pytest.approx([19.0, 9.5, 38.0])
     assert row[7:10] == pytest.approx([99.96976, 99.93952, 99.98488], rel=1e-7)
+
+
+def test_of_many_losses_those_at_the_torque_in_operation_are_listed():
+    """Of four points three fit: those at 50 N.m, with the 1000 rpm in operation."""
+    rows = losses_rows(hot_losses(59.0), 3)
+    assert [(float(one["torque"]), float(one["speed"])) for one in rows] == [(50, 1000), (50, 9000)]
 
 
 def test_a_study_has_its_known_findings():
