@@ -15,6 +15,10 @@ GREY = "#808080"
 _COLOURS = 64  # of a scale
 _CELLS = 200_000  # of a map; more are a picture, or the page grows by megabytes
 _DARK = 0.35  # grey below it is drawn in a grey that is seen on white and on black
+_GREEK = {
+    "beta": "β", "delta": "δ", "eta": "η", "lambda": "λ", "mu": "µ", "omega": "ω", "tau": "τ",
+    "theta": "θ", "zeta": "ζ",
+}  # fmt: skip
 _SYMBOLS = {
     "s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamond", "d": "diamond",
     "P": "cross", "x": "x-thin-open", "+": "cross-thin-open", "*": "star",
@@ -163,7 +167,9 @@ def plain(text: str) -> str:
     """
 
     def inner(found: re.Match[str]) -> str:
-        words = re.sub(r"_\{?(\w+)\}?", r"<sub>\1</sub>", found[1])
+        words = re.sub(r"\\dot\{?(\\?[a-zA-Z]+)\}?", "\\1\u0307", found[1])  # a dot on the letter
+        words = re.sub(r"\\([a-z]+)", lambda one: _GREEK.get(one[1], one[0]), words)
+        words = re.sub(r"_\{?(\w+)\}?", r"<sub>\1</sub>", words)
         words = re.sub(r"\^\{?([-\w]+)\}?", r"<sup>\1</sup>", words)
         return re.sub(r"\\mathdefault|[\\{}]", "", words)
 

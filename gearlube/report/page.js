@@ -22,7 +22,7 @@
   const PHONE = 640, PANEL = 250, HIGH = 420, KEY = 18;  // px; HIGH: with names beside it
   const axis = (rule) => ({
     gridcolor: rule, zerolinecolor: rule, linecolor: rule, ticks: "outside", tickcolor: rule,
-    automargin: true, exponentformat: "power", title: {standoff: 8, font: {size: SIZE}},
+    automargin: true, exponentformat: "power", minexponent: 4, title: {standoff: 8, font: {size: SIZE}},
   });
   const scale = {colorbar: {title: {font: {size: SIZE}}}};
   const maps = {heatmap: [scale], contour: [scale], mesh3d: [scale], surface: [scale]};
@@ -77,7 +77,7 @@
       ? `${done}<br>${word}` : `${done} ${word}`.trim(), "");
   const lettersIn = (text, length, room) => {  // of a line that takes `length` px
     const longest = Math.max(...text.split("<br>").map((line) => bare(line).length));
-    return Math.max(Math.floor(longest * room / length), 6);
+    return Math.max(Math.floor(0.95 * longest * room / length), 6);  // letters differ in width
   };
   const fitLabels = (plot, box, now) => {  // labels of axes are no longer than these
     for (const label of plot.querySelectorAll(".infolayer text")) {
@@ -103,11 +103,18 @@
       const number = mark.dataset.index, note = plot._fullLayout.annotations[number];
       const place = mark.getBoundingClientRect(), name = `annotations[${number}]`;
       if (note.textangle) {
-        const below = upright.filter((one) => one.right > place.left + 2 && one.left < place.right - 2
-          && one.bottom > place.top && one.top < place.bottom);
-        const up = below.length ? place.bottom - Math.min(...below.map((one) => one.top)) : 0;
-        if (up) now[`${name}.yshift`] = note.yshift + up;
-        upright.push(new DOMRect(place.x, place.y - up, place.width, place.height));
+        const moved = ([right, up]) => new DOMRect(
+          place.x + right, place.y - up, place.width, place.height);
+        const top = box.top + plot._fullLayout._size.t;
+        const free = (one) => upright.every((other) => other.right <= one.left + 2
+          || other.left >= one.right - 2 || other.bottom <= one.top || other.top >= one.bottom);
+        const ups = upright.map((other) => place.bottom - other.top).filter((up) => up > 0);
+        const beside = place.width + 4;  // on the other side of its line
+        const moves = [[0, 0], [beside, 0], ...ups.flatMap((up) => [[0, up], [beside, up]])];
+        const move = moves.find((one) => free(moved(one)) && moved(one).top >= top) || [0, 0];
+        now[`${name}.xshift`] = note.xshift + move[0];
+        now[`${name}.yshift`] = note.yshift + move[1];
+        upright.push(moved(move));
         continue;
       }
       const axis = plot._fullLayout[note.xref.replace(/^x(\d*)$/, "xaxis$1")];

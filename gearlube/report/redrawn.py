@@ -29,6 +29,7 @@ _GAP, _BARE_GAP = 0.3, 0.16  # below a panel with and without a label, of a row
 _BESIDE = 0.09  # of the width, between panels
 _LETTERS, _LONG, _TITLE = 30, 44, 90  # of a line of a label of y and of x, and of a title
 _ASIDE = 7.0  # px
+_TICKS = 6  # of a logarithmic axis, about
 _DECADES = 2.0  # of an axis, above which only powers of ten are labelled
 _ANCHORS = {"baseline": "bottom", "center": "middle", "center_baseline": "middle"}
 
@@ -62,7 +63,7 @@ def redrawn(figure: Any) -> Any:
     except PictureOnly:
         return None
     if figure.get_suptitle():
-        lines = wrap(plain(figure.get_suptitle()), _TITLE)
+        lines = _lines(figure.get_suptitle(), _TITLE)
         look = {"showarrow": False, "xanchor": "left", "yanchor": "bottom", "align": "left"}
         chart.add_annotation(
             text="<br>".join(lines),
@@ -159,11 +160,10 @@ def _axis(axis: Any, limits: tuple[float, float], label: str, letters: int) -> d
     from matplotlib.ticker import FixedLocator, LogFormatter, ScalarFormatter
 
     log = axis.get_scale() == "log"
-    lines = [part for line in label.split("\n") for part in wrap(plain(line), letters)]
     ends = np.log10(limits) if log else np.asarray(limits)
     ink = None if axis.label.get_color() == "black" else colour(axis.label.get_color())
     found: dict[str, Any] = {
-        "title": {"text": "<br>".join(lines), "font": {"color": ink}},
+        "title": {"text": "<br>".join(_lines(label, letters)), "font": {"color": ink}},
         "type": "log" if log else "linear",
         "range": [float(one) for one in ends],
     }
@@ -173,8 +173,12 @@ def _axis(axis: Any, limits: tuple[float, float], label: str, letters: int) -> d
         words = axis.get_major_formatter().format_ticks(ticks)
         found |= {"tickvals": ticks, "ticktext": [plain(one) for one in words]}
     elif log:
-        found["dtick"] = 1 if np.ptp(ends) > _DECADES else "D2"
+        found["dtick"] = max(1, round(np.ptp(ends) / _TICKS)) if np.ptp(ends) > _DECADES else "D2"
     return found
+
+
+def _lines(label: str, letters: int) -> list[str]:
+    return [part for line in label.split("\n") for part in wrap(plain(line), letters)]
 
 
 def _refs(name: str, in_x: bool, in_y: bool) -> dict[str, str]:

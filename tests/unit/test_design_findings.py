@@ -203,15 +203,19 @@ def test_relief_is_told_with_its_torque_and_pressure_where_that_is_known():
 
 
 def test_the_figure_of_the_error_shows_microradians_over_two_periods():
-    """The error rises from 0 to 48.75 of 50 µrad; of the coast flanks its largest is drawn as 0."""
+    """The error rises from 0 to 48.75 of 50 µrad; of the coast flanks its largest is drawn as 0.
+
+    The titles have the errors of the findings, between the phases that are drawn.
+    """
     rise = 50.0 * np.arange(40) / 40
-    for ax, zero in zip(transmission_error(design()).axes, (0.0, 48.75), strict=True):
+    axes = transmission_error(design()).axes
+    for ax, zero, found in zip(axes, (0.0, 48.75), (49, 80), strict=True):
         *singles, whole = ax.lines
         for shift, line in zip((-1, 0, 1, 2), singles, strict=True):
             np.testing.assert_allclose(line.get_ydata(), rise - zero, atol=1e-9)
             np.testing.assert_allclose(line.get_xdata(), rise / 12.5 - 2.0 + shift, atol=1e-12)
         np.testing.assert_allclose(whole.get_ydata(), np.tile(rise - zero, 2), atol=1e-9)
         np.testing.assert_allclose(whole.get_xdata(), np.arange(80) / 40)
-        assert ax.get_title().endswith(": 49 µrad")
+        assert ax.get_title().endswith(f": {found} µrad")
         middle = 48.75 / 2.0 - zero
         np.testing.assert_allclose(ax.get_ylim(), (middle - 43.875, middle + 43.875))

@@ -111,3 +111,17 @@ def test_a_second_scale_stands_on_the_right_of_its_panel():
     assert scale.range == (0.0, 5.0)
     assert chart.layout.xaxis4.matches == "x2"  # zooms with it
     assert chart.layout.meta["places"] == [[0, 0], [1, 0]]
+
+
+def test_greek_letters_and_lines_of_titles_are_kept_and_labels_of_decades_are_few():
+    figure = Figure()
+    ax = figure.subplots()
+    ax.plot(X, X)
+    ax.set(yscale="log", ylim=(1e-17, 1.0), ylabel=r"$\dot\delta_x$ [mm/s]")
+    figure.suptitle("one\ntwo")
+    chart = redrawn(figure)
+    assert chart.layout.yaxis.title.text == "δ\u0307<sub>x</sub> [mm/s]"
+    assert chart.layout.yaxis.dtick == 3  # 17 decades, about six labels
+    assert chart.layout.margin.t == 34 + 2 * 17
+    (title,) = chart.layout.annotations
+    assert title.text == "one<br>two"

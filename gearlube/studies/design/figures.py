@@ -43,7 +43,7 @@ def transmission_error(dataset: xr.Dataset) -> Any:
         errors = [dataset["error"].sel(side=side) for side in _TITLES]
         swings = [1e6 * float(one.max() - one.min()) for one in errors]  # without nan
         half = 0.9 * max(*swings, 1.0)  # of the axis, the same for both sides
-        for ax, side, swing in zip(figure.subplots(1, 2), _TITLES, swings, strict=True):
+        for ax, side in zip(figure.subplots(1, 2), _TITLES, strict=True):
             part = dataset.sel(side=side)
             error = part["error"].values
             zero = np.nanmin(error) if side == "drive" else np.nanmax(error)
@@ -59,7 +59,7 @@ def transmission_error(dataset: xr.Dataset) -> Any:
                 ylim=(middle - half, middle + half),
                 xlabel="pinion rotation [mesh periods]",
                 ylabel="gear lags [µrad of the pinion]",
-                title=f"{_TITLES[side]}: {swing:.0f} µrad",
+                title=f"{_TITLES[side]}: {1e6 * float(part['found_error']):.0f} µrad",
             )
         figure.suptitle("Transmission error without load; single pairs grey", fontsize=11.5)
     return figure

@@ -14,6 +14,7 @@ from gearlube.report.cycle import WH, step_rows
 from gearlube_core.units import rads_to_rpm
 
 SUMMARY_HEAD = ("quantity", "value", "unit", "low", "high")
+_LEAST_SHARE = 0.001  # below which only this is said
 _NOTHING = 1e-6  # kJ, Wh
 
 
@@ -104,14 +105,15 @@ def range_sentence(dataset: xr.Dataset) -> str:
     for words in named:
         output = words[words.rindex("(") + 1 : -1]
         time, energy = (
-            100.0 * float(dataset[f"{name}_outside_range"].sel(range=output))
+            _percent(float(dataset[f"{name}_outside_range"].sel(range=output)))
             for name in ("time", "energy")
         )
-        parts.append(
-            f"{range_words(output)}: {time:.2g} % of the running time, {energy:.2g} % of the "
-            "energy lost"
-        )
+        parts.append(f"{range_words(output)}: {time} of the running time, {energy} of the loss")
     return f"What left it: {'; '.join(parts)}." if parts else ""
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %" if share > _LEAST_SHARE else f"below {100.0 * _LEAST_SHARE:g} %"
 
 
 def _energy(

@@ -52,10 +52,9 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     else:
         of_films = _march(dataset)
     smallest, *others = of_films
-    known = errors.get("smallest film", errors.get("films", math.nan))
-    if math.isfinite(known):
+    if of := next((name for name in ("smallest film", "films") if name in errors), ""):
         words = f"{smallest.headline.removesuffix('.')}; the error of the grid is about"
-        smallest = replace(smallest, headline=f"{words} {100.0 * known:.2g} %.")
+        smallest = replace(smallest, headline=f"{words} {100.0 * errors[of]:.2g} % of the {of}.")
     domain = largest_errors(dataset, "domain_")
     return [
         smallest,
