@@ -98,16 +98,22 @@ def refusal(
         )
     known = {".".join(str(part) for part in error["loc"]) for error in errors}
     asked = [said for name, said in unusual_numbers(data, notes).items() if name not in known]
-    wrong = [sentence(error, notes, unmodelled) for error in errors]
-    return wrong_fields(where, wrong, asked)
+    wrong = [sentence(error, notes, unmodelled) for error in errors[:MOST_LISTED]]
+    return wrong_fields(where, wrong, asked, count=len(errors))
 
 
-def wrong_fields(where: str, wrong: Sequence[str], asked: Sequence[str] = ()) -> ParameterError:
-    """Return the error of a file with wrong fields, which sentences name; `asked` are doubts."""
-    more = f" And {len(wrong) - MOST_LISTED} more." if len(wrong) > MOST_LISTED else ""
+def wrong_fields(
+    where: str, wrong: Sequence[str], asked: Sequence[str] = (), count: int = 0
+) -> ParameterError:
+    """Return the error of a file with wrong fields, which sentences name; `asked` are doubts.
+
+    `count` is the number of wrong fields where there are more than sentences.
+    """
+    count = max(count, len(wrong))
+    more = f" And {count - MOST_LISTED} more." if count > MOST_LISTED else ""
     shown = [*wrong[:MOST_LISTED], *asked]
     return ParameterError(
-        f"{where} has {len(wrong)} wrong field(s). "
+        f"{where} has {count} wrong field(s). "
         + " ".join(one if len(one) < _LONGEST else f"{one[:_LONGEST]}..." for one in shown)
         + more
     )
