@@ -11,6 +11,7 @@ from gearlube.studies.runup.record import record_ramp
 from gearlube.studies.runup.run import load_runup, run_runup
 from gearlube.studies.runup.settings import fitting_duration
 from gearlube_core.errors import ParameterError
+from gearlube_core.storage.resumable import ARRAYS, ResultStore
 from tests.helpers.short_ramp import SHORT
 from tests.helpers.units import without_units
 
@@ -100,9 +101,15 @@ def test_a_run_up_keeps_forces_and_speeds_with_units_at_a_constant_rate(tmp_path
 def test_a_stopped_ramp_goes_on_from_its_parts_to_the_same_bits(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("gearlube.studies.runup.record._PART", 0.25)
     whole = record_ramp(SHORT, folder=tmp_path)
-    last = max(tmp_path.glob("*_*.npz"), key=lambda path: int(path.stem.rsplit("_", 1)[1]))
-    last.unlink()
-    again = record_ramp(SHORT, folder=tmp_path)
-    for name, values in whole.channels.items():
-        assert np.array_equal(values, again.channels[name]), name
-    assert np.array_equal(whole.slow_time, again.slow_time)
+    store = ResultStore(tmp_path, ARRAYS)
+    first, *_, last = (f"{SHORT.key()}_{i}" for i in range(4))
+    for flag in ("kept", "unknown"):  # whether something left its range, in the first part
+        store.drop([last])
+        if flag == "unknown":
+            part = store.read(first)
+            store.keep(first, {name: one for name, one in part.items() if name != "outside"})
+        again = record_ramp(SHORT, folder=tmp_path)
+        for name, values in whole.channels.items():
+            assert np.array_equal(values, again.channels[name]), (flag, name)
+        assert np.array_equal(whole.slow_time, again.slow_time)
+        assert np.array_equal(whole.outside, again.outside)

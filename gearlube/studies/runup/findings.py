@@ -192,20 +192,20 @@ def _margins(dataset: xr.Dataset, critical: list[Critical]) -> list[Finding]:
     rest = [one for one in inside if not (one is near and _is_at(loudest, near))]  # not named yet
     found = []
     if inside:
-        named_parts = "; ".join(
+        listed = "; ".join(
             f"order {one.mesh_order} with '{one.mode}' at {_speed(dataset, one.speed_rpm)}, "
             f"{quantity_text(one.force, 'N')}"
             for one in rest[:_NAMED]
         )
         more = len(rest) - _NAMED
+        after = "" if rest == inside else ", after that of the loudest"
+        named = f"By force{after}: {listed}{f'; and {more} more' if more > 0 else ''}. "
         found.append(
             Finding(
                 NOTE,
-                f"Mesh orders 1 to {_MARKED} meet natural frequencies at {len(inside)} speeds of "
-                "the ramp.",
-                f"By force{'' if rest == inside else ', after that of the loudest'}: "
-                f"{named_parts}{f'; and {more} more' if more > 0 else ''}. The table of critical "
-                "speeds has all.",
+                f"Mesh orders 1 to {_MARKED} meet natural frequencies at {len(inside)} "
+                f"{'speed' if len(inside) == 1 else 'speeds'} of the ramp.",
+                f"{named if rest else ''}The table of critical speeds has all.",
             )
         )
     if outside:

@@ -45,6 +45,7 @@ ENERGIES = ("energy.pinion_work", *(f"energy.{source}" for source in LOSS_SOURCE
 _PART = 2.0  # s of the record that are kept together
 _SLOW = 0.02  # s between two samples of the energies
 _MOST_SETTLING = 20  # mesh periods, at least
+_OF_PART = {"motion", "forces", "energies", "outside", "axle_state", "driver_state", "warned"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,21 +143,26 @@ def record_ramp(
     parts = [min(size, steps - at) for at in range(0, steps, size)]
     store, whole = ResultStore(folder, ARRAYS), settings.key()
     found: list[Record] = []
-    settled = False
+    marched = False  # the last part, now
     with deferred_interrupts() as interrupt:
         for i, length in enumerate(parts):
             key = f"{whole}_{i}"
             part = store.read(key)
+            if part is not None and part.keys() != _OF_PART:
+                logger.warning("Part %d is from another version. It will be computed again.", i + 1)
+                part = None
             if part is None:
-                if not settled and not found:
+                if not found:
                     progress(0.0, f"{settings.name}: settling at the first speed")
                     march_until(0.0, axle, driver, settings)
-                elif not settled and found:
+                elif not marched:
                     axle.set_state(found[-1]["axle_state"])
                     driver.set_state(found[-1]["driver_state"])
-                settled = True
+                marched = True
                 part = _march(axle, driver, settings.oil_temperature, h, length, warned)
                 store.keep(key, part)
+            else:
+                marched = False
             found.append(part)
             speed = rads_to_rpm(settings.ramp.speed((i * size + length) * h))
             progress((i + 1) / len(parts), f"{settings.name}, {speed:.0f} rpm")
@@ -170,7 +176,7 @@ def record_ramp(
                     f"Stopped: {sum(parts[: i + 1]) * h:.3g} of {steps * h:.3g} s of the "
                     f"{settings.name} are {kept}."
                 )
-    return _joined(found, h, warned, torques)
+    return _joined(found, h, torques)
 
 
 def driver_of(
@@ -264,9 +270,7 @@ def _march(
     }
 
 
-def _joined(
-    parts: list[Record], h: float, warned: dict[str, str], torques: tuple[Array, Array]
-) -> RampRecord:
+def _joined(parts: list[Record], h: float, torques: tuple[Array, Array]) -> RampRecord:
     motion = np.concatenate([part["motion"] for part in parts])
     forces = np.concatenate([part["forces"] for part in parts])
     energies = np.concatenate([part["energies"] for part in parts])
@@ -278,6 +282,7 @@ def _joined(
             for at, part in zip(starts, parts, strict=False)
         ]
     )
+    warned: dict[str, str] = {}
     for part in parts:
         for text in part["warned"].tolist():
             name, sentence = text.split("\n", 1)

@@ -65,7 +65,7 @@ def run_runup(
     progress(_OF_MARCH, "orders and spectra")
     dataset = runup_dataset(settings, record)
     if settings.driver == VEHICLE:
-        dataset[HELD] = force_without_car(settings, dataset)
+        dataset[HELD] = force_without_car(settings, dataset, folder=parts)
     dataset = Result.of(described(dataset), "runup")
     if out is not None:
         progress(1.0, "writing the file")

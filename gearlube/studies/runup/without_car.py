@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -21,7 +22,9 @@ _COARSE = 0.5  # orders: no engine has lines between those of the mesh
 _SPARE = 1.2
 
 
-def force_without_car(settings: RunupSettings, dataset: xr.Dataset) -> float:
+def force_without_car(
+    settings: RunupSettings, dataset: xr.Dataset, *, folder: Path | None = None
+) -> float:
     """Return the bearing forces of the loudest mesh order without the car, at held speed [N rms].
 
     Parameters
@@ -30,6 +33,8 @@ def force_without_car(settings: RunupSettings, dataset: xr.Dataset) -> float:
         Of the run-up.
     dataset : Dataset
         Its tracks; the loudest order, its speed and its torque are taken from them.
+    folder : path, optional
+        Where the record is kept, should the run be stopped.
     """
     track = levels.total_force(dataset, "bearing_force_track").values
     block, place = np.unravel_index(int(np.argmax(track)), track.shape)
@@ -46,7 +51,7 @@ def force_without_car(settings: RunupSettings, dataset: xr.Dataset) -> float:
         order_resolution=_COARSE,
         settling_time=_SETTLING,
     )
-    record = record_ramp(held)
+    record = record_ramp(held, folder=folder)
     signals = np.stack([record.channels[name] for name in record.force_names], axis=1)
     blocks = block_spectra(held, record, signals)
     order = levels.teeth(dataset) * int(dataset["mesh_order"][place])
