@@ -61,6 +61,9 @@ def test_the_brake_loses_its_torque_times_the_speed(rotors: Path) -> None:
 def test_the_report_says_where_the_power_goes(rotors: Path) -> None:
     with xr.open_dataset(rotors / FILE) as found:
         said = [one.headline for one in findings(found)]
+        for missing, words in ((3e-11, "below 0.01 ppm"), (1.4e-7, "0.14 ppm")):
+            told = findings(found.assign_attrs(imbalance=missing))[0].detail
+            assert f"Energy balance: {words} of the energy" in told
     assert any(re.match(r"The drivetrain loses 31\d W at the file's speed", one) for one in said), (
         said
     )

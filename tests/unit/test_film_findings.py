@@ -127,9 +127,10 @@ def test_without_an_estimate_nothing_is_said_of_the_grid():
     assert not [one for one in findings(unknown) if "grid makes" in one.headline]
 
 
-def test_rolling_without_sliding_has_no_finding_of_friction():
-    rolling = line(friction_coefficient=0.0)
-    assert not [one for one in findings(rolling) if "friction" in one.headline]
+def test_rolling_without_sliding_says_nothing_of_friction():
+    rolling = line(**FULL | {"friction_coefficient": 0.0, "error_friction": 0.0})
+    assert not [one for one in findings(rolling) if "friction" in one.headline + one.detail]
+    assert not [row for row in summary_rows(rolling) if "friction" in row.quantity]
 
 
 def test_the_report_of_a_film_says_what_the_gear_file_says(tmp_path):

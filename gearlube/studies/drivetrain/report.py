@@ -43,7 +43,7 @@ _STEADY = 0.02  # change of a speed in a run, over the speed
 _AT_REST = 0.05  # speed that counts as none [rad/s]
 _NO_LOSS = 1e-9  # W, rounding
 _LEAST_SWING = 1e-12  # m, of a transmission error; below is rounding
-_ROUNDING = 1e-14  # of energies, below which nothing is missing
+_LEAST_MISSING = 1e-8  # of energies, below which only this is said
 _MAIN = (
     "cycle", "loss_map", "runup_orders", "waterfall", "losses", "transmission_error", "campbell",
     "orders", "modes", "layout",
@@ -66,7 +66,7 @@ def findings(dataset: xr.Dataset) -> list[Finding]:
     """Return the findings of a run, the answer first."""
     lost, share_kept = losses(dataset), efficiency(dataset)
     missing = float(dataset.attrs["imbalance"])
-    share = f"{100.0 * missing:.2g} %" if missing > _ROUNDING else "nothing"
+    share = quantity_text(1e6 * missing, "ppm", 2) if missing > _LEAST_MISSING else "below 0.01 ppm"
     unknown = f"{share} of the energy that passed through is unaccounted for."
     found = []
     if (total := sum(lost.values())) > _NO_LOSS:

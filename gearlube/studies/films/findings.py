@@ -85,9 +85,11 @@ def _signed(phase: float) -> str:
 def largest_errors(dataset: xr.Dataset, of: str = "") -> dict[str, float]:
     """Return the estimated errors of the grid by their quantities, those that are known [-].
 
-    `of` is "domain_" for those of the domain.
+    `of` is "domain_" for those of the domain. That of friction is left out where nothing slides.
     """
     found = {name: float(dataset.attrs.get(of + key, math.nan)) for name, key in _ERRORS}
+    if dataset.attrs.get("friction_coefficient") == 0.0:
+        del found["friction"]
     if not of and "steady_grid_error" in dataset:
         found["films"] = float(dataset["steady_grid_error"].max())
     return {name: error for name, error in found.items() if math.isfinite(error)}

@@ -56,7 +56,8 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
     rows += [
         _own(f"film ratio λ, {name}", value, "1") for name, value in film_ratios(dataset).items()
     ]
-    rows.append(_own("friction coefficient", abs(of["friction_coefficient"]), "1"))
+    if slides := of["friction_coefficient"] != 0.0:
+        rows.append(_own("friction coefficient", abs(of["friction_coefficient"]), "1"))
     if of["contact"] == "helical":
         rows += [
             _own("power lost to sliding", of["sliding_power"], "W"),
@@ -77,7 +78,7 @@ def summary_rows(dataset: xr.Dataset) -> list[Row]:
         _own(f"estimated error{part}, {name}", 100.0 * of[f"{prefix}error_{key}"], "%")
         for prefix, part in (("", ""), ("domain_", " of the domain"))
         for name, key in _ERRORS.items()
-        if math.isfinite(of.get(f"{prefix}error_{key}", math.nan))
+        if math.isfinite(of.get(f"{prefix}error_{key}", math.nan)) and (slides or key != "friction")
     ]
     return [
         *rows,
