@@ -141,7 +141,7 @@ def run_contact(
     results = ContactResults(contact=dataset, mesh_table=contact_table(file, dataset))
     if folder is not None:
         write_mesh_table(results.mesh_table, folder / f"{pair_stem(file.name)}.nc")
-        progress(1.0, "report and mesh table are written")
+    progress(1.0, "done")
     return results
 
 

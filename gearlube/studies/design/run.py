@@ -108,6 +108,7 @@ def run_design(
     if folder is not None:
         progress(0.92, "writing report and figures")
         write_design(results, folder)
+    progress(1.0, "done")
     return results
 
 
