@@ -105,17 +105,26 @@ def pytest_collect_file() -> Generator[None, list[pytest.Collector], list[pytest
 
 
 @pytest.hookimpl(tryfirst=True)
+@pytest.hookimpl(trylast=True)  # without the tests that are left out
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Give all workers one order, with the tests of film solvers first.
+    """Give all workers one order: tests of film solvers first, those that build FMUs in the middle.
 
     Each of two workers begins with one half of the list. So one compiles the kernels of films, the
-    other those of axles, gears and bearings, and hardly any kernel is compiled twice.
+    other those of FMUs, and hardly any kernel is compiled twice. The last tests are shared out in
+    small parts, each of which sets up its modules again: they are cheap ones.
     """
 
     def is_not_of_films(path: str) -> bool:
         return "ehl" not in path and "_law_" not in path
 
+    def builds_fmus(item: pytest.Item) -> bool:
+        return item.path.parent.name in ("fmu", "native")
+
     items.sort(key=lambda item: (is_not_of_films(str(item.path)), str(item.path)))
+    fmus = [item for item in items if builds_fmus(item)]
+    others = [item for item in items if not builds_fmus(item)]
+    middle = (len(items) + 1) // 2
+    items[:] = others[:middle] + fmus + others[middle:]
 
 
 @pytest.fixture(scope="session", autouse=True)
