@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from docs.ehl import claims, claims_cycle
+from docs.ehl import claims
 from docs.ehl.cases import CYCLE, LAYER, FilmCase, facet_case, parabola_case
 from docs.ehl.claims import verdicts
 from docs.ehl.claims_cycle import CYCLES
@@ -102,17 +102,12 @@ def test_speed_claim_follows_the_exponent_and_the_pressure(power, rise, verdict)
     ("low", "high", "film", "verdict"),
     [(1.02, 1.25, 0.16, HOLDS), (1.02, 1.25, 0.12, PARTLY), (0.9, 1.25, 0.12, FAILS)],
 )
-def test_ranges_of_the_cycle(low, high, film, verdict, monkeypatch):
-    monkeypatch.setattr(claims_cycle, "extrapolated", lambda _: (1.14e-7, 2e-9))
-    monkeypatch.setattr(claims_cycle, "thinnest_printed", lambda *_: 1.65e-7)
+def test_ranges_of_the_cycle(low, high, film, verdict):
     steps = np.arange(1, 576)
     shape = np.sin(np.pi * steps / 575.0)
     p, h = 1e9 * (low + (high - low) * shape), 1e-6 * (film + (0.22 - film) * shape)
     store = Given(lambda case, step: steady(), lambda case: march(steps, p, h))
-    found = CLAIMS["J3"](store)
-    assert found.verdict == verdict
-    assert "0.114 um, with an error of 0.002 um" in found.reason
-    assert "at least 0.165 um" in found.reason
+    assert CLAIMS["J3"](store).verdict == verdict
 
 
 @pytest.mark.parametrize(("first", "verdict"), [(210, HOLDS), (150, PARTLY)])
