@@ -188,6 +188,7 @@ def contact(
             if films is not None:
                 progress(0.7, "films in the running axle (compiled the first time)")
                 animation = write_films(results, films, out)
+            progress(1.0, "done")
         kept = None
         if gear.endswith(".toml") and replace(cycle, torques=CycleSettings().torques) == (
             CycleSettings()

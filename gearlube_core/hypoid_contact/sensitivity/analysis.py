@@ -181,7 +181,7 @@ def contact_sensitivity(
     stiffness = pair_stiffness(file, settings.body, cache=cache, jobs=jobs)
     progress(0.0, "loaded contact")
     with single_threaded():
-        found = compute_positions(
+        positions = compute_positions(
             [(side, float(phase)) for side in SIDES for phase in settings.phases],
             partial(_position, variations, stiffness, settings),
             key=_key(file, settings, stiffness),
@@ -193,19 +193,15 @@ def contact_sensitivity(
         progress(0.9, "unloaded contact")
         parts = {
             side: {
-                **stack_records(found[side, float(phase)] for phase in settings.phases),
+                **stack_records(positions[side, float(phase)] for phase in settings.phases),
                 **_unloaded(variations[side]),
             }
             for side in SIDES
         }
-    return sensitivity_dataset(
-        file,
-        variations["drive"].parameters,
-        parts,
-        settings.phases,
-        (EASE_S, EASE_T),
-        settings.torque,
-    )
+    parameters, grid = variations["drive"].parameters, (EASE_S, EASE_T)
+    found = sensitivity_dataset(file, parameters, parts, settings.phases, grid, settings.torque)
+    progress(1.0, "done")
+    return found
 
 
 def _unloaded(variations: Variations) -> Record:
