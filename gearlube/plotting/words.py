@@ -128,8 +128,10 @@ def held_words(size: str, ratio: float) -> str:
 
     >>> held_words("20 N", 3.0)
     'Without the car, at held speed, the order has 20 N there, 3.0 times less.'
+    >>> held_words("0.332 N", 174.3)
+    'Without the car, at held speed, the order has 0.332 N there, 174 times less.'
     """
-    less = f", {ratio:#.2g} times less" if ratio >= _LESS else ""
+    less = f", {ratio:.{0 if ratio >= 10.0 else 1}f} times less" if ratio >= _LESS else ""
     return f"Without the car, at held speed, the order has {size} there{less}."
 
 
