@@ -173,7 +173,7 @@ def _renew_node(
     entrainment = channels[ENTRAIN] * motion.w_p
     sliding = sliding_speed(motion, channels)
     from_kept = tells_slopes(films, place, force, motion.w_p, oil.temperature)
-    # one evaluation in a loop, so that compiled code has it once
+    # a loop, so that compiled code holds one copy of the long evaluation, not three
     for k in range(1 if from_kept else 3):
         more_force = 1.0 + NUDGE if k == 1 else 1.0
         more_speed = 1.0 + NUDGE if k == 2 else 1.0
@@ -215,7 +215,7 @@ def flank_at_nodes(
     """
     before, t = pair_node(n_nodes, z_p, motion.angle, pair)
     after = (before + 1) % n_nodes
-    for k in range(min(2, n_nodes)):  # a compiler that knew that it is 2 would write out both
+    for k in range(min(2, n_nodes)):  # not a constant: compiled code then holds one copy
         place = (before + k) % n_nodes
         _renew_node(place, motion, force, window, oil, law, film_model, films)
     return flank_between(films, before, after, t, force, motion.w_p)
